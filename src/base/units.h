@@ -31,6 +31,17 @@ inline constexpr Dimension energy_per_area{1, 0, -2, 0};
 inline constexpr Dimension temperature{0, 0, 0, 1};
 }  // namespace dimension
 
+/// A number in internal units, its dimension, and its unit as written ("" for a bare number).
+struct Quantity {
+    double value = 0;
+    Dimension dimension;
+    std::string unit;
+};
+
+/// Reads any quantity. Units are products and quotients of SI symbols with decimal prefixes: "kg/m^3", "J/(kg*K)", "mm2", "1/s".
+/// Throws std::invalid_argument, with a text for the user, on what is no number or no unit (nearest spelling named).
+Quantity read_quantity(std::string_view text);
+
 /// Reads "0.15 mm", "16 GPa", "1.2e3 kg/m^3", "5.59 MJ/kg", "45 deg" into internal units.
 /// Throws std::invalid_argument, with a text for the user, on a missing unit, an unknown one (nearest spelling named), or another dimension.
 double parse_quantity(std::string_view text, Dimension wanted);

@@ -25,6 +25,7 @@ struct ParameterInfo {
 /// A value in internal units, and where it comes from.
 struct ParameterValue {
     double value = 0;
+    Dimension dimension;     ///< of what was written; the law compares it with the one it wants
     std::string text;        ///< as written, with its unit
     std::string source;      ///< the publication or calculation behind it
     std::string confidence;  ///< S, a:KEY, b-H, b-M, b-L, c (see docs/materials.md)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/hd.h"
+#include "math/pack.h"
 
 #include <cmath>
 
@@ -37,7 +38,8 @@ struct Sym3 {
 };
 template <class R> BRISANCE_HD R trace(const Sym3<R>& a) { return a.xx + a.yy + a.zz; }
 template <class R> BRISANCE_HD R ddot(const Sym3<R>& a, const Sym3<R>& b) {
-    return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + R(2) * (a.xy * b.xy + a.xz * b.xz + a.yz * b.yz);
+    const R off = a.xy * b.xy + a.xz * b.xz + a.yz * b.yz;
+    return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + (off + off);
 }
 
 /// General tensor, row-major names: xy is row x, column y.
@@ -95,7 +97,7 @@ template <class R> BRISANCE_HD Sym3<R> inverse(const Sym3<R>& a) {
     const R c_xx = a.yy * a.zz - a.yz * a.yz;
     const R c_xy = a.xz * a.yz - a.xy * a.zz;
     const R c_xz = a.xy * a.yz - a.xz * a.yy;
-    const R d = R(1) / (a.xx * c_xx + a.xy * c_xy + a.xz * c_xz);
+    const R d = ScalarOf<R>(1) / (a.xx * c_xx + a.xy * c_xy + a.xz * c_xz);
     return {c_xx * d, (a.xx * a.zz - a.xz * a.xz) * d, (a.xx * a.yy - a.xy * a.xy) * d,
             c_xy * d, c_xz * d, (a.xy * a.xz - a.xx * a.yz) * d};
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only folder that knows OpenMP (and, under nvcc, CUDA). Loops over independent items; sums in fixed chunks, so that they
+// give the same bits with any number of threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace brisance {
+
+/// Memory on 64-byte boundaries, so that a pack never straddles a cache line.
+template <class T>
+struct AlignedAllocator {
+    using value_type = T;
+    AlignedAllocator() = default;
+    template <class U> AlignedAllocator(const AlignedAllocator<U>&) {}
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
+};
+template <class T> using Array = std::vector<T, AlignedAllocator<T>>;
+
+namespace exec {
+
+inline int threads() {
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+inline void set_threads(int n) {
+#ifdef _OPENMP
+    omp_set_num_threads(n);
+#else
+    (void)n;
+#endif
+}
+
+/// f(i) for i in [0, n), in any order, in runs of `grain` items. Items must not depend on each other.
+template <class F>
+void for_each(std::int64_t n, F&& f, int grain = 64) {
+#pragma omp parallel for schedule(dynamic, grain)
+    for (std::int64_t i = 0; i < n; ++i) f(i);
+}
+
+inline constexpr std::int64_t chunk = 1024;
+
+/// Sum of f(i) over [0, n): each chunk in its order, then the chunks in theirs.
+template <class T, class F>
+T sum(std::int64_t n, T zero, F&& f) {
+    const std::int64_t chunks = (n + chunk - 1) / chunk;
+    std::vector<T> partial(static_cast<std::size_t>(chunks), zero);
+    for_each(chunks, [&](std::int64_t c) {
+        T s = zero;
+        const std::int64_t end = (c + 1) * chunk < n ? (c + 1) * chunk : n;
+        for (std::int64_t i = c * chunk; i < end; ++i) s += f(i);
+        partial[static_cast<std::size_t>(c)] = s;
+    }, 1);
+    T total = zero;
+    for (const T& s : partial) total += s;
+    return total;
+}
+template <class F> double sum(std::int64_t n, F&& f) { return sum(n, 0.0, static_cast<F&&>(f)); }
+
+/// Largest f(i); order-free. `least` for an empty range.
+template <class F>
+double max(std::int64_t n, double least, F&& f) {
+    double m = least;
+#pragma omp parallel for reduction(max : m) schedule(static)
+    for (std::int64_t i = 0; i < n; ++i) {
+        const double x = f(i);
+        if (x > m) m = x;
+    }
+    return m;
+}
+
+}  // namespace exec
+}  // namespace brisance

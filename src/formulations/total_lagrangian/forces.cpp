@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pass 2: f_i/V_i = sum w (T_i + T_j) xi + sum w (a_i + a_j)(u_j - u_i) [+ viscosity], kick; and the drift.
+//
+// Pairwise viscosity in total-Lagrangian form, with x = x_j - x_i, v = v_j - v_i at t_n, only where x.v < 0:
+//   mu = h x.v/(x^2 + 0.01 h^2),  q = rho (-alpha c mu + beta mu^2) >= 0,  f_ij/V_i = -w q x     (central: angular momentum is kept)
+// and its heat -f_ij.v/2 to each of the two.
+#include "formulations/total_lagrangian/total_lagrangian.h"
+
+#include <algorithm>
+
+namespace brisance {
+
+namespace {
+
+template <class V>
+struct Force {
+    V x{}, y{}, z{}, heat{};
+};
+
+template <class V, bool masked, bool viscous, class R>
+Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const Tile& tile) {
+    const std::size_t c = static_cast<std::size_t>(tile.column);
+    const std::int64_t i = tile.base;
+    const R *t0 = b.T[0].data() + i, *t1 = b.T[1].data() + i, *t2 = b.T[2].data() + i, *t3 = b.T[3].data() + i, *t4 = b.T[4].data() + i,
+            *t5 = b.T[5].data() + i, *t6 = b.T[6].data() + i, *t7 = b.T[7].data() + i, *t8 = b.T[8].data() + i;
+    const R *ux = b.u[0].data() + i, *uy = b.u[1].data() + i, *uz = b.u[2].data() + i;
+    const R* stiffness = b.stiffness.data() + i;
+    const R* live = b.live.data() + i;
+    const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), ai = load<V>(stiffness);
+    [[maybe_unused]] const R *vx = nullptr, *vy = nullptr, *vz = nullptr;
+    [[maybe_unused]] V vxi{}, vyi{}, vzi{};
+    [[maybe_unused]] R h = 0, alpha_c = 0, beta = 0, rho = 0;
+    if constexpr (viscous) {
+        vx = b.v_now[0].data() + i;
+        vy = b.v_now[1].data() + i;
+        vz = b.v_now[2].data() + i;
+        vxi = load<V>(vx);
+        vyi = load<V>(vy);
+        vzi = load<V>(vz);
+        h = static_cast<R>(b.options.smoothing * std::min(b.layout.columns[c].spacing, b.layout.dz));
+        rho = static_cast<R>(b.material.density);
+        alpha_c = static_cast<R>(b.options.alpha * b.material.sound_speed());
+        beta = static_cast<R>(b.options.beta);
+    }
+    Force<V> f;
+    V gx{}, gy{}, gz{};  // sum w xi of a masked tile
+    V kx{}, ky{}, kz{};  // zero-energy control
+    for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
+        const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
+        const R* w = pairs.w.data() + pair.weights;
+        V sxx{}, sxy{}, syx{}, syy{}, szx{}, szy{};
+        [[maybe_unused]] V m0{}, m1{};
+        R z = pair.z_first;
+        for (int o = 0; o < pair.count; ++o, z += pair.dz) {
+            const std::int64_t j = pair.shift + o;
+            V weight = broadcast<V>(w[o]);
+            if constexpr (masked) {
+                weight = weight * load<V>(live + j);
+                m0 += weight;
+                m1 += weight * z;
+            }
+            const V wz = weight * z;
+            sxx += weight * load<V>(t0 + j);
+            sxy += weight * load<V>(t1 + j);
+            f.x += wz * load<V>(t2 + j);
+            syx += weight * load<V>(t3 + j);
+            syy += weight * load<V>(t4 + j);
+            f.y += wz * load<V>(t5 + j);
+            szx += weight * load<V>(t6 + j);
+            szy += weight * load<V>(t7 + j);
+            f.z += wz * load<V>(t8 + j);
+            const V spring = weight * (ai + load<V>(stiffness + j));
+            const V dx = load<V>(ux + j) - xi, dy = load<V>(uy + j) - yi, dz = load<V>(uz + j) - zi;
+            kx += spring * dx;
+            ky += spring * dy;
+            kz += spring * dz;
+            if constexpr (viscous) {
+                const V x = dx + pair.dx, y = dy + pair.dy, zz = dz + z;
+                const V dvx = load<V>(vx + j) - vxi, dvy = load<V>(vy + j) - vyi, dvz = load<V>(vz + j) - vzi;
+                const V xv = vmin(x * dvx + y * dvy + zz * dvz, V{});
+                const V mu = h * xv / (x * x + y * y + zz * zz + R(0.01) * h * h);
+                const V q = weight * (rho * mu * (beta * mu - alpha_c));
+                f.x -= q * x;
+                f.y -= q * y;
+                f.z -= q * zz;
+                f.heat -= R(0.5) * q * xv;
+            }
+        }
+        f.x += sxx * pair.dx + sxy * pair.dy;
+        f.y += syx * pair.dx + syy * pair.dy;
+        f.z += szx * pair.dx + szy * pair.dy;
+        if constexpr (masked) {
+            gx += m0 * pair.dx;
+            gy += m0 * pair.dy;
+            gz += m1;
+        }
+    }
+    if constexpr (!masked) {
+        const double* g = pairs.g_sum.data() + 3 * c;
+        gx = broadcast<V>(R(g[0]));
+        gy = broadcast<V>(R(g[1]));
+        gz = broadcast<V>(R(g[2]));
+    }
+    f.x += load<V>(t0) * gx + load<V>(t1) * gy + load<V>(t2) * gz + kx;
+    f.y += load<V>(t3) * gx + load<V>(t4) * gy + load<V>(t5) * gz + ky;
+    f.z += load<V>(t6) * gx + load<V>(t7) * gy + load<V>(t8) * gz + kz;
+    if constexpr (masked) {
+        const V on = load<V>(live);
+        f.x *= on;
+        f.y *= on;
+        f.z *= on;
+        f.heat *= on;
+    }
+    return f;
+}
+
+}  // namespace
+
+template <class R>
+double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
+    using V = Pack<R>;
+    const R scale = static_cast<R>(kick / b.material.density), inverse_density = static_cast<R>(1 / b.material.density);
+    const bool viscous = b.options.pairwise;
+    const auto n = static_cast<std::int64_t>(b.layout.tiles.size());
+    std::vector<double> heat(viscous ? static_cast<std::size_t>(n) : 0);
+    exec::for_each(n, [&](std::int64_t t) {
+        const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
+        const std::int64_t i = tile.base;
+        const Force<V> f = viscous ? (tile.masked ? gather_force<V, true, true>(b, pairs, tile) : gather_force<V, false, true>(b, pairs, tile))
+                                   : (tile.masked ? gather_force<V, true, false>(b, pairs, tile) : gather_force<V, false, false>(b, pairs, tile));
+        const V fs[3] = {f.x, f.y, f.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const V v = load<V>(b.v[k].data() + i) + scale * fs[k];
+            store(b.v[k].data() + i, v);
+            if (viscous) store(b.acceleration[k].data() + i, inverse_density * fs[k]);
+        }
+        if (viscous) {
+            const V gained = scale * R(b.material.density) * f.heat;
+            store(b.energy.data() + i, load<V>(b.energy.data() + i) + gained);
+            double h = 0;
+            for (int l = 0; l < lanes<R>; ++l)
+                if (b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own) h += static_cast<double>(lane(gained, l));
+            heat[static_cast<std::size_t>(t)] = h * b.volume(b.layout.columns[static_cast<std::size_t>(tile.column)]);
+        }
+    });
+    double total = 0;
+    for (double h : heat) total += h;
+    return total;
+}
+
+template <class R>
+void drift(SolidBody<R>& b, double dt) {
+    using V = Pack<R>;
+    const R step = static_cast<R>(dt);
+    exec::for_each(static_cast<std::int64_t>(b.layout.tiles.size()), [&](std::int64_t t) {
+        const std::int64_t i = b.layout.tiles[static_cast<std::size_t>(t)].base;
+        for (std::size_t k = 0; k < 3; ++k) store(b.u[k].data() + i, load<V>(b.u[k].data() + i) + step * load<V>(b.v[k].data() + i));
+    }, 256);
+    fill_images(b.layout, b.u);
+    if (!b.options.pairwise) return;
+    // Velocity at the t_n that the drift arrives at: v_n+1/2 + dt/2 a_n. It is renewed here, since neighbours read it during a kick.
+    const R half = static_cast<R>(0.5 * dt);
+    exec::for_each(static_cast<std::int64_t>(b.layout.tiles.size()), [&](std::int64_t t) {
+        const std::int64_t i = b.layout.tiles[static_cast<std::size_t>(t)].base;
+        for (std::size_t k = 0; k < 3; ++k)
+            store(b.v_now[k].data() + i, load<V>(b.v[k].data() + i) + half * load<V>(b.acceleration[k].data() + i));
+    }, 256);
+    fill_images(b.layout, b.v_now);
+}
+
+template <class R>
+BodySums sums(const SolidBody<R>& b) {
+    const auto& tiles = b.layout.tiles;
+    return exec::sum(static_cast<std::int64_t>(tiles.size()), BodySums{}, [&](std::int64_t t) {
+        const Tile& tile = tiles[static_cast<std::size_t>(t)];
+        const Column& c = b.layout.columns[static_cast<std::size_t>(tile.column)];
+        BodySums s;
+        for (std::int64_t l = tile.base; l < tile.base + lanes<R>; ++l) {
+            const auto i = static_cast<std::size_t>(l);
+            if (!(b.layout.flags[i] & slot_own)) continue;
+            const double vx = static_cast<double>(b.v[0][i]), vy = static_cast<double>(b.v[1][i]), vz = static_cast<double>(b.v[2][i]);
+            s.kinetic += 0.5 * (vx * vx + vy * vy + vz * vz);
+            s.px += vx;
+            s.py += vy;
+            s.pz += vz;
+            s.internal += static_cast<double>(b.energy[i]);
+            s.damaged += !b.state.empty() && static_cast<double>(b.state[0][i]) > b.options.failure.threshold;
+        }
+        const double m = b.mass(c);
+        s.kinetic *= m;
+        s.px *= m;
+        s.py *= m;
+        s.pz *= m;
+        s.internal *= b.volume(c);
+        return s;
+    });
+}
+
+template double kick(SolidBody<double>&, const ColumnPairs<double>&, double);
+template double kick(SolidBody<float>&, const ColumnPairs<float>&, double);
+template void drift(SolidBody<double>&, double);
+template void drift(SolidBody<float>&, double);
+template BodySums sums(const SolidBody<double>&);
+template BodySums sums(const SolidBody<float>&);
+
+}  // namespace brisance

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pass 1: F from the neighbours' displacements, objective strain increment, equation of state, strength law, T = P K^-1 - a (F - I).
+#include "formulations/total_lagrangian/total_lagrangian.h"
+#include "math/eigen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+namespace {
+
+/// A tile's sums over its neighbours.
+template <class V>
+struct Gathered {
+    Mat3<V> r{};         // sum w (u_j - u_i) (x) xi
+    V square{};          // sum w |u_j - u_i|^2
+    Sym3<V> k_inverse{};
+};
+
+template <class V, bool masked, class R>
+Gathered<V> gather(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const Tile& tile) {
+    const std::size_t c = static_cast<std::size_t>(tile.column);
+    const R* ux = b.u[0].data() + tile.base;
+    const R* uy = b.u[1].data() + tile.base;
+    const R* uz = b.u[2].data() + tile.base;
+    const R* live = b.live.data() + tile.base;
+    const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz);
+    Gathered<V> g;
+    Sym3<V> K{};
+    for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
+        const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
+        const R* w = pairs.w.data() + pair.weights;
+        V sx{}, sy{}, sz{}, tx{}, ty{}, tz{};   // sums of w du and of w z du
+        V m0{}, m1{}, m2{};                     // sums of w, w z, w z^2
+        R z = pair.z_first;
+        for (int o = 0; o < pair.count; ++o, z += pair.dz) {
+            const std::int64_t j = pair.shift + o;
+            const V dx = load<V>(ux + j) - xi, dy = load<V>(uy + j) - yi, dz = load<V>(uz + j) - zi;
+            V weight = broadcast<V>(w[o]);
+            if constexpr (masked) {
+                weight = weight * load<V>(live + j);
+                m0 += weight;
+                m1 += weight * z;
+                m2 += weight * (z * z);
+            }
+            const V wx = weight * dx, wy = weight * dy, wz = weight * dz;
+            sx += wx;
+            sy += wy;
+            sz += wz;
+            tx += wx * z;
+            ty += wy * z;
+            tz += wz * z;
+            g.square += wx * dx + wy * dy + wz * dz;
+        }
+        g.r.xx += sx * pair.dx;
+        g.r.xy += sx * pair.dy;
+        g.r.xz += tx;
+        g.r.yx += sy * pair.dx;
+        g.r.yy += sy * pair.dy;
+        g.r.yz += ty;
+        g.r.zx += sz * pair.dx;
+        g.r.zy += sz * pair.dy;
+        g.r.zz += tz;
+        if constexpr (masked) {
+            K.xx += m0 * (pair.dx * pair.dx);
+            K.yy += m0 * (pair.dy * pair.dy);
+            K.zz += m2;
+            K.xy += m0 * (pair.dx * pair.dy);
+            K.xz += m1 * pair.dx;
+            K.yz += m1 * pair.dy;
+        }
+    }
+    if constexpr (masked) {
+        // A particle with too few neighbours has no gradient: K^-1 = 0 leaves it F = I and T = 0.
+        const V own = load<V>(live);
+        const V t = trace(K);
+        const V d = K.xx * (K.yy * K.zz - K.yz * K.yz) - K.xy * (K.xy * K.zz - K.yz * K.xz) + K.xz * (K.xy * K.yz - K.yy * K.xz);
+        const auto good = (own * d > R(2e-3) * t * t * t * R(1.0 / 27.0)) & (t > R(0.1));
+        const V one = broadcast<V>(R(1)), zero{};
+        const Sym3<V> safe{good ? K.xx : one, good ? K.yy : one, good ? K.zz : one, good ? K.xy : zero, good ? K.xz : zero, good ? K.yz : zero};
+        const Sym3<V> inv = inverse(safe);
+        const V on = good ? one : zero;
+        g.k_inverse = scaled(inv, on);
+        g.r = {g.r.xx * on, g.r.xy * on, g.r.xz * on, g.r.yx * on, g.r.yy * on, g.r.yz * on, g.r.zx * on, g.r.zy * on, g.r.zz * on};
+        g.square = g.square * on;
+    } else {
+        const double* k = pairs.k_inverse.data() + 6 * c;
+        g.k_inverse = {broadcast<V>(R(k[0])), broadcast<V>(R(k[1])), broadcast<V>(R(k[2])),
+                       broadcast<V>(R(k[3])), broadcast<V>(R(k[4])), broadcast<V>(R(k[5]))};
+    }
+    return g;
+}
+
+template <class V, class Arrays> Mat3<V> load_matrix(const Arrays& a, std::int64_t i) {
+    return {load<V>(a[0].data() + i), load<V>(a[1].data() + i), load<V>(a[2].data() + i), load<V>(a[3].data() + i), load<V>(a[4].data() + i),
+            load<V>(a[5].data() + i), load<V>(a[6].data() + i), load<V>(a[7].data() + i), load<V>(a[8].data() + i)};
+}
+template <class V, class Arrays> void store_matrix(Arrays& a, std::int64_t i, const Mat3<V>& m) {
+    store(a[0].data() + i, m.xx);
+    store(a[1].data() + i, m.xy);
+    store(a[2].data() + i, m.xz);
+    store(a[3].data() + i, m.yx);
+    store(a[4].data() + i, m.yy);
+    store(a[5].data() + i, m.yz);
+    store(a[6].data() + i, m.zx);
+    store(a[7].data() + i, m.zy);
+    store(a[8].data() + i, m.zz);
+}
+
+template <class V> Mat3<V> plus_identity(Mat3<V> m) {
+    using R = ScalarOf<V>;
+    m.xx += R(1);
+    m.yy += R(1);
+    m.zz += R(1);
+    return m;
+}
+
+/// The strain increment sym(dF F_half^-1) and the rotation of the step, both exact for rigid rotations (Hughes & Winget 1980).
+template <class V>
+struct Increment {
+    Sym3<V> d;
+    Mat3<V> rotation;
+};
+template <class V> Increment<V> increment(const Mat3<V>& f_old, const Mat3<V>& f_new) {
+    using R = ScalarOf<V>;
+    const Mat3<V> half = broadcast<V>(R(0.5)) * (f_old + f_new);
+    const Mat3<V> cof = cofactor(half);
+    const V dh = half.xx * cof.xx + half.xy * cof.xy + half.xz * cof.xz;
+    const V inverse_det = R(1) / ((vabs(dh) > R(1e-6)) ? dh : V{} + R(1e-6));
+    // L = dF half^-1, half^-1 = cof^T/det
+    const Mat3<V> df = f_new - f_old;
+    const Mat3<V> ct = transpose(cof);
+    Mat3<V> l = df * ct;
+    l = {l.xx * inverse_det, l.xy * inverse_det, l.xz * inverse_det, l.yx * inverse_det, l.yy * inverse_det,
+         l.yz * inverse_det, l.zx * inverse_det, l.zy * inverse_det, l.zz * inverse_det};
+    Increment<V> out;
+    out.d = {l.xx, l.yy, l.zz, R(0.5) * (l.xy + l.yx), R(0.5) * (l.xz + l.zx), R(0.5) * (l.yz + l.zy)};
+    // Cayley: (I - W/2)^-1 (I + W/2) with the axial vector a of W/2
+    const V ax = R(0.25) * (l.zy - l.yz), ay = R(0.25) * (l.xz - l.zx), az = R(0.25) * (l.yx - l.xy);
+    const V f = R(2) / (R(1) + ax * ax + ay * ay + az * az);
+    out.rotation = {R(1) - f * (ay * ay + az * az), f * (ax * ay - az), f * (ax * az + ay),
+                    f * (ax * ay + az), R(1) - f * (ax * ax + az * az), f * (ay * az - ax),
+                    f * (ax * az - ay), f * (ay * az + ax), R(1) - f * (ax * ax + ay * ay)};
+    return out;
+}
+template <class V> Sym3<V> rotated(const Mat3<V>& q, const Sym3<V>& s) {
+    const Mat3<V> qs = q * s;
+    const auto row = [](V ax, V ay, V az, V bx, V by, V bz) { return ax * bx + ay * by + az * bz; };
+    return {row(qs.xx, qs.xy, qs.xz, q.xx, q.xy, q.xz), row(qs.yx, qs.yy, qs.yz, q.yx, q.yy, q.yz), row(qs.zx, qs.zy, qs.zz, q.zx, q.zy, q.zz),
+            row(qs.xx, qs.xy, qs.xz, q.yx, q.yy, q.yz), row(qs.xx, qs.xy, qs.xz, q.zx, q.zy, q.zz), row(qs.yx, qs.yy, qs.yz, q.zx, q.zy, q.zz)};
+}
+
+/// What one tile adds to the report.
+struct TileReport {
+    double rate = 0, zero_energy = 0, zero_energy_lost = 0, bulk_viscous = 0;
+    bool torn = false;
+};
+
+template <class R>
+class StressPass {
+public:
+    using V = Pack<R>;
+    StressPass(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick)
+        : b(body), pairs_(pairs), time_(static_cast<float>(time)), dt_(static_cast<R>(dt)), kick_(static_cast<R>(kick)),
+          a0_(static_cast<R>(body.options.zero_energy * body.material.longitudinal_modulus())), n_state_(static_cast<int>(body.state.size())) {}
+
+    TileReport operator()(const Tile& tile) const {
+        const Gathered<V> g = tile.masked ? gather<V, true>(b, pairs_, tile) : gather<V, false>(b, pairs_, tile);
+        return update(tile, g);
+    }
+
+private:
+    TileReport update(const Tile& tile, const Gathered<V>& g) const {
+        const std::int64_t i = tile.base;
+        const Column& column = b.layout.columns[static_cast<std::size_t>(tile.column)];
+        const V zero{}, one = broadcast<V>(R(1)), on = load<V>(b.live.data() + i);
+        const auto alive = on > R(0);
+
+        // kinematics
+        const Mat3<V> r_old = load_matrix<V>(b.R_sum, i);
+        const Mat3<V> h_old = r_old * g.k_inverse, h_new = g.r * g.k_inverse;  // F - I
+        const Mat3<V> f_new = plus_identity(h_new);
+        const Increment<V> step = increment(plus_identity(h_old), f_new);
+        const Mat3<V> cof = cofactor(f_new);
+        const V jacobian = f_new.xx * cof.xx + f_new.xy * cof.xy + f_new.xz * cof.xz;
+        const V safe_j = vmax(jacobian, broadcast<V>(R(0.05)));
+
+        // energy up to the last kick: the old stress worked over half of the drift before it and half of the one after
+        const V a_old = load<V>(b.stiffness.data() + i);
+        const Mat3<V> dr = g.r - r_old;
+        const V work = ddot(load_matrix<V>(b.T, i), dr) + a_old * ddot(h_old, dr);
+        V energy = load<V>(b.energy.data() + i) + R(0.5) * kick_ * (load<V>(b.power.data() + i) + work / dt_);
+
+        // pressure; the energy of t_n+1 closes implicitly, P = a + b E being linear
+        SolidPoint<V> p;
+        p.d = step.d;
+        p.s = rotated(step.rotation, Sym3<V>{load<V>(b.s[0].data() + i), load<V>(b.s[1].data() + i), load<V>(b.s[2].data() + i),
+                                             load<V>(b.s[3].data() + i), load<V>(b.s[4].data() + i), load<V>(b.s[5].data() + i)});
+        p.mu = R(1) / safe_j - R(1);
+        const V expansion = trace(step.d);
+        EosTerms<V> t;
+        alignas(64) R mu[lanes<R>];
+        store(mu, p.mu);
+        b.material.eos->terms(mu, t);
+        const V half_volume = R(0.5) * safe_j * expansion;
+        p.energy = (energy + R(0.5) * safe_j * ddot(p.s, step.d) - half_volume * t.a) / (R(1) + half_volume * t.b);
+        p.pressure = vmax(eos_pressure(t, p.energy), broadcast<V>(static_cast<R>(std::max(b.material.eos->pressure_floor(), -1e6))));
+        const V bulk = vmax(eos_stiffness(t, p.mu, p.energy, p.pressure), zero);
+
+        // strength
+        p.dt = broadcast<V>(dt_);
+        p.scale = load<V>(b.scale.data() + i);
+        for (int k = 0; k < n_state_; ++k) p.state[k] = load<V>(b.state[static_cast<std::size_t>(k)].data() + i);
+        const V damage_old = n_state_ > 0 ? p.state[0] : zero;
+        b.material.strength->update(p);
+        failure(p, tile, column, damage_old);
+
+        // bulk viscosity: q = rho l (C_q l e^2 - C_l c e) in compression, e = tr D < 0
+        TileReport report;
+        const V modulus = bulk + p.shear_stiffness;
+        const R rho = static_cast<R>(b.material.density);
+        const V sound = vsqrt(modulus * vmax(one, safe_j) / rho);
+        V q = zero;
+        if (b.options.linear > 0 || b.options.quadratic > 0) {
+            const R length = static_cast<R>(std::min(column.spacing, b.layout.dz));
+            const V e = vmin(expansion / dt_, zero);
+            q = (rho / safe_j) * length * e * (R(b.options.quadratic) * length * e - R(b.options.linear) * sound);
+        }
+
+        // stress and what the sums need
+        const V total = p.pressure + q;
+        const Sym3<V> sigma{p.s.xx - total, p.s.yy - total, p.s.zz - total, p.s.xy, p.s.xz, p.s.yz};
+        const Mat3<V> pk = (sigma * cof) * g.k_inverse;  // P K^-1, P = J sigma F^-T
+        const V a_new = a0_ * p.integrity;
+        const V k_on = alive ? one : zero;
+        const V a_keep = a_new * k_on;
+        const auto put = [&](int n, V pk_n, V h_n) { store(b.T[static_cast<std::size_t>(n)].data() + i, (alive ? pk_n - a_keep * h_n : zero)); };
+        put(0, pk.xx, h_new.xx);
+        put(1, pk.xy, h_new.xy);
+        put(2, pk.xz, h_new.xz);
+        put(3, pk.yx, h_new.yx);
+        put(4, pk.yy, h_new.yy);
+        put(5, pk.yz, h_new.yz);
+        put(6, pk.zx, h_new.zx);
+        put(7, pk.zy, h_new.zy);
+        put(8, pk.zz, h_new.zz);
+
+        store_matrix(b.R_sum, i, g.r);
+        const auto keep = [&](Array<R>& a, V x) { store(a.data() + i, (alive ? x : load<V>(a.data() + i))); };
+        keep(b.s[0], p.s.xx);
+        keep(b.s[1], p.s.yy);
+        keep(b.s[2], p.s.zz);
+        keep(b.s[3], p.s.xy);
+        keep(b.s[4], p.s.xz);
+        keep(b.s[5], p.s.yz);
+        keep(b.pressure, p.pressure);
+        keep(b.energy, energy);
+        store(b.power.data() + i, alive ? ddot(pk, dr) / dt_ : zero);
+        store(b.stiffness.data() + i, a_keep);
+        for (int k = 0; k < n_state_; ++k) keep(b.state[static_cast<std::size_t>(k)], p.state[k]);
+        store_float(b.yield.data() + i, p.yield);
+
+        // sums of the tile: only lanes that are particles
+        const V own = owned(i) * k_on;
+        const double volume = b.volume(column);
+        const V misfit = vmax(g.square - ddot(h_new, g.r), zero);  // sum w |x_ij - F xi|^2
+        report.zero_energy = 0.5 * volume * static_cast<double>(hsum(own * a_keep * misfit));
+        report.zero_energy_lost = 0.5 * volume * static_cast<double>(hsum(own * vmax(a_old - a_keep, zero) * misfit));
+        report.bulk_viscous = volume * static_cast<double>(hsum(-own * q * safe_j * expansion));
+
+        // stable step: the least stretch from tr B^4, B = F^-1 F^-T
+        const Mat3<V> ct = transpose(cof);
+        const V j2 = R(1) / (safe_j * safe_j);
+        const auto dotr = [](V a1, V a2, V a3, V c1, V c2, V c3) { return a1 * c1 + a2 * c2 + a3 * c3; };
+        const Sym3<V> B{dotr(ct.xx, ct.xy, ct.xz, ct.xx, ct.xy, ct.xz) * j2, dotr(ct.yx, ct.yy, ct.yz, ct.yx, ct.yy, ct.yz) * j2,
+                        dotr(ct.zx, ct.zy, ct.zz, ct.zx, ct.zy, ct.zz) * j2, dotr(ct.xx, ct.xy, ct.xz, ct.yx, ct.yy, ct.yz) * j2,
+                        dotr(ct.xx, ct.xy, ct.xz, ct.zx, ct.zy, ct.zz) * j2, dotr(ct.yx, ct.yy, ct.yz, ct.zx, ct.zy, ct.zz) * j2};
+        const V stretch2 = vsqrt(R(1.0 / 3.0) * ddot(B, B));  // ~ 1/lambda^4 norm; its root is 1/lambda^2
+        const V rate = own * sound * vsqrt(vsqrt(stretch2)) * (R(1) / static_cast<R>(std::min(column.spacing, b.layout.dz)));
+        report.rate = static_cast<double>(hmax(rate));
+
+        // the guard: what has no meaning as a deformation any more
+        const V size = ddot(f_new, f_new);
+        const auto ok = (jacobian > R(0.2)) & (jacobian < R(8)) & (size < R(40)) & (vabs(energy) < R(1e6));
+        const V bad = alive ? (ok ? zero : one) : zero;
+        report.torn = hmax(bad * owned(i)) > R(0);
+        if (report.torn)
+            for (int l = 0; l < lanes<R>; ++l)
+                if (lane(bad, l) > R(0) && (b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own))
+                    b.layout.flags[static_cast<std::size_t>(i + l)] |= slot_torn;
+        return report;
+    }
+
+    V owned(std::int64_t i) const {
+        V v{};
+        if constexpr (lanes_of<V> == 1) v = R(b.layout.flags[static_cast<std::size_t>(i)] & slot_own);
+        else
+            for (int l = 0; l < lanes<R>; ++l) v[l] = R(b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own);
+        return v;
+    }
+
+    /// Failure beside the law's own, the diagnostics, and the label of the cause.
+    void failure(SolidPoint<V>& p, const Tile& tile, const Column& column, const V& damage_old) const {
+        const std::int64_t i = tile.base;
+        const FailureRule& rule = b.options.failure;
+        const V zero{}, one = broadcast<V>(R(1));
+
+        const double rx = column.x - b.axis_x, ry = column.y - b.axis_y, r = std::sqrt(rx * rx + ry * ry);
+        const R nx = static_cast<R>(r > 0 ? rx / r : 1), ny = static_cast<R>(r > 0 ? ry / r : 0);
+        const V radial = p.pressure - (p.s.xx * (nx * nx) + p.s.yy * (ny * ny) + p.s.xy * (R(2) * nx * ny));
+        store_float(b.peak_pressure.data() + i, vmax(load_float<V>(b.peak_pressure.data() + i), p.pressure));
+        store_float(b.peak_radial.data() + i, vmax(load_float<V>(b.peak_radial.data() + i), radial));
+        if (n_state_ == 0) return;
+
+        // Principal stresses are wanted only where a bound on them can exceed what was seen before, in whole rock.
+        const V eq = mises(p.s);
+        const V seen_1 = load_float<V>(b.sigma_1.data() + i), seen_tau = load_float<V>(b.tau_max.data() + i);
+        const V whole = (damage_old < R(rule.threshold)) ? one : zero;
+        const V bound = vmax(R(2.0 / 3.0) * eq - p.pressure - seen_1, R(0.57735026919) * eq - seen_tau);
+        const R least = static_cast<R>(rule.label_tensile > 0 ? 0.3 * rule.label_tensile : 0);
+        const bool look = hmax(whole * bound) > R(0) && hmax(whole * eq) > least;
+        if (look) {
+            const Principal<V> s = principal(p.s);
+            const V one_now = s.one - p.pressure, tau_now = R(0.5) * (s.one - s.three);
+            store_float(b.sigma_1.data() + i, whole * vmax(seen_1, one_now) + (one - whole) * seen_1);
+            store_float(b.tau_max.data() + i, whole * vmax(seen_tau, tau_now) + (one - whole) * seen_tau);
+            if (rule.tensile > 0) p.state[0] = (one_now > R(rule.tensile) * p.scale) ? one : p.state[0];
+            if (rule.shear > 0) p.state[0] = (tau_now > R(rule.shear) * p.scale) ? one : p.state[0];
+        }
+        if (rule.mode > 0) {
+            // row 9 of the discrepancies: a failed particle bears no tension and no shear, or nothing at all
+            const auto failed = p.state[0] >= one;
+            const V keep = failed ? zero : one;
+            p.s = scaled(p.s, keep);
+            p.pressure = failed ? (rule.mode == 2 ? zero : vmax(p.pressure, zero)) : p.pressure;
+            p.integrity = failed ? zero : p.integrity;
+        }
+        // time and cause
+        const V now = p.state[0];
+        if (hmax(now - damage_old) > R(0))
+            for (int l = 0; l < lanes<R>; ++l) {
+                const auto k = static_cast<std::size_t>(i + l);
+                if (!(b.layout.flags[k] & slot_own) || b.failure_time[k] >= 0 || lane(now, l) < R(rule.threshold)) continue;
+                b.failure_time[k] = time_;
+                const double scale = static_cast<double>(b.scale[k]);
+                const double tension = b.sigma_1[k] / (scale * rule.label_tensile), shear = b.tau_max[k] / (scale * rule.label_shear);
+                const bool t = tension >= 1, s = shear >= 1;
+                b.cause[k] = t == s ? 3 : (t ? 1 : 2);
+                if (!t && !s) b.cause[k] = tension > shear ? 1 : 2;
+            }
+    }
+
+    SolidBody<R>& b;
+    const ColumnPairs<R>& pairs_;
+    float time_;
+    R dt_, kick_, a0_;
+    int n_state_;
+};
+
+/// Takes the newly torn particles out of the sums: their neighbours' tiles become masked and get their R_sum afresh, so that the
+/// change of the sum is not mistaken for a deformation.
+template <class R>
+void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
+    std::vector<bool> touched(b.layout.tiles.size(), false);
+    std::vector<std::size_t> first_tile(b.layout.columns.size() + 1, 0);
+    for (const Tile& t : b.layout.tiles) ++first_tile[static_cast<std::size_t>(t.column) + 1];
+    for (std::size_t c = 0; c < b.layout.columns.size(); ++c) first_tile[c + 1] += first_tile[c];
+    const auto column_of = [&](std::int64_t slot) {
+        const auto it = std::upper_bound(b.layout.columns.begin(), b.layout.columns.end(), slot,
+                                         [](std::int64_t s, const Column& c) { return s < c.start; });
+        return static_cast<std::size_t>(it - b.layout.columns.begin()) - 1;
+    };
+    for (std::size_t k = 0; k < b.layout.flags.size(); ++k) {
+        if (!(b.layout.flags[k] & slot_torn) || b.live[k] == R(0)) continue;
+        ++report.torn;
+        b.live[k] = R(0);
+        for (auto& a : b.T) a[k] = R(0);
+        for (auto& a : b.s) a[k] = R(0);
+        b.pressure[k] = b.power[k] = b.stiffness[k] = R(0);
+        const std::size_t c = column_of(static_cast<std::int64_t>(k));
+        for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
+            const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
+            const std::size_t other = column_of(b.layout.columns[c].start + pair.shift + (b.layout.pad + 1));
+            for (std::size_t t = first_tile[other]; t < first_tile[other + 1]; ++t) touched[t] = true;
+        }
+        for (std::size_t t = first_tile[c]; t < first_tile[c + 1]; ++t) touched[t] = true;
+    }
+    fill_images(b.layout, {b.live.data()});
+    exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t t) {
+        if (!touched[static_cast<std::size_t>(t)]) return;
+        Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
+        tile.masked = true;
+        store_matrix(b.R_sum, tile.base, gather<Pack<R>, true>(b, pairs, tile).r);
+    });
+}
+
+}  // namespace
+
+template <class R>
+StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick) {
+    const StressPass<R> pass(body, pairs, time, dt, kick);
+    const auto n = static_cast<std::int64_t>(body.layout.tiles.size());
+    std::vector<TileReport> reports(static_cast<std::size_t>(n));
+    exec::for_each(n, [&](std::int64_t t) { reports[static_cast<std::size_t>(t)] = pass(body.layout.tiles[static_cast<std::size_t>(t)]); });
+    StressReport out;
+    bool torn = false;
+    for (std::size_t t = 0; t < reports.size(); ++t) {
+        const TileReport& r = reports[t];
+        if (r.rate > out.rate) {
+            out.rate = r.rate;
+            out.rate_slot = body.layout.tiles[t].base;
+        }
+        out.zero_energy += r.zero_energy;
+        out.zero_energy_lost += r.zero_energy_lost;
+        out.bulk_viscous += r.bulk_viscous;
+        torn = torn || r.torn;
+    }
+    if (torn) tear(body, pairs, out);
+    auto& T = body.T;
+    fill_images(body.layout, {T[0].data(), T[1].data(), T[2].data(), T[3].data(), T[4].data(), T[5].data(), T[6].data(), T[7].data(),
+                              T[8].data(), body.stiffness.data()});
+    return out;
+}
+
+template StressReport stress(SolidBody<double>&, const ColumnPairs<double>&, double, double, double);
+template StressReport stress(SolidBody<float>&, const ColumnPairs<float>&, double, double, double);
+
+}  // namespace brisance

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "laws/material.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+namespace {
+
+// Function-local statics: registration runs before main, in an order nobody promises.
+std::vector<EosEntry>& eos_registry() {
+    static std::vector<EosEntry> entries;
+    return entries;
+}
+std::vector<StrengthEntry>& strength_registry() {
+    static std::vector<StrengthEntry> entries;
+    return entries;
+}
+template <class Entry> bool insert_sorted(std::vector<Entry>& entries, Entry entry) {
+    entries.insert(std::upper_bound(entries.begin(), entries.end(), entry, [](const Entry& a, const Entry& b) { return a.name < b.name; }),
+                   std::move(entry));
+    return true;
+}
+
+template <class Entry> const Entry& find_law(const std::vector<Entry>& entries, const LawData& data, const std::string& kind) {
+    std::string known;
+    for (const Entry& e : entries) {
+        if (e.name == data.law) return e;
+        known += (known.empty() ? "" : ", ") + e.name;
+    }
+    throw InputError(fmt::format("{}: {} law = \"{}\" is not known; allowed: {}", data.where, kind, data.law, known));
+}
+
+/// The given parameters held against the law's table; fallbacks filled in.
+ParameterSet checked(const std::vector<ParameterInfo>& table, const LawData& data, const ParameterSet& inherited) {
+    ParameterSet out;
+    for (const ParameterInfo& row : table) {
+        const auto given = data.parameters.find(row.name);
+        if (given == data.parameters.end()) {
+            const auto from_material = inherited.find(row.name);
+            if (from_material != inherited.end()) {
+                out[row.name] = from_material->second;
+            } else if (row.fallback) {
+                out[row.name] = {*row.fallback, row.dimension, "", "absent", "", data.where};
+            } else {
+                throw InputError(fmt::format("{}: law \"{}\" needs {} ({}), a {} such as \"{}\"", data.where, data.law, row.name, row.meaning,
+                                             dimension_name(row.dimension), dimension_example(row.dimension)));
+            }
+            continue;
+        }
+        const ParameterValue& v = given->second;
+        if (!(v.dimension == row.dimension))
+            throw InputError(fmt::format("{}: {} = {} is a {}; law \"{}\" wants a {} such as \"{}\"", v.where, row.name, v.text,
+                                         dimension_name(v.dimension), data.law, dimension_name(row.dimension), dimension_example(row.dimension)));
+        if (!(v.value >= row.min && v.value <= row.max))
+            throw InputError(fmt::format("{}: {} = {} is outside of {:g} ... {:g} {} ({})", v.where, row.name, v.text, row.min, row.max,
+                                         internal_unit(row.dimension), row.meaning));
+        out[row.name] = v;
+    }
+    for (const auto& [name, value] : data.parameters) {
+        if (out.count(name)) continue;
+        std::string known;
+        for (const ParameterInfo& row : table) known += (known.empty() ? "" : ", ") + row.name;
+        throw InputError(fmt::format("{}: law \"{}\" has no parameter {}; allowed: {}", value.where, data.law, name, known));
+    }
+    return out;
+}
+
+/// c^2 must stay positive where a run can come: from a tenth of volume lost to the tension side, on the cold curve.
+void check_sound_speed(const Material& m, const MaterialData& data) {
+    for (double mu = 0; mu <= 0.3; mu += 0.001) {
+        const double stiffness = m.eos->stiffness(mu, m.eos->initial_energy());
+        if (!(stiffness > 0))
+            throw InputError(fmt::format("{}: equation of state \"{}\" of {} has c^2 < 0 at mu = {:.3f} (rho_0 c^2 = {:.3g} GPa)", data.eos.where,
+                                         data.eos.law, data.name, mu, stiffness));
+    }
+}
+
+}  // namespace
+
+bool add_eos(EosEntry entry) { return insert_sorted(eos_registry(), std::move(entry)); }
+bool add_strength(StrengthEntry entry) { return insert_sorted(strength_registry(), std::move(entry)); }
+const std::vector<EosEntry>& eos_entries() { return eos_registry(); }
+const std::vector<StrengthEntry>& strength_entries() { return strength_registry(); }
+const std::vector<ParameterInfo>& burn_parameters() {
+    static const std::vector<ParameterInfo> rows = {{"D", dimension::velocity, "detonation velocity", 0.1, 20},
+                                                    {"P_CJ", dimension::pressure, "Chapman-Jouguet pressure", 0.01, 100}};
+    return rows;
+}
+
+CjState chapman_jouguet(const Eos& products, double density) {
+    // On the Hugoniot of the products E = E0 + P (1 - V)/2; the CJ state has the least slope P/(1 - V) of the Rayleigh line.
+    const auto hugoniot = [&](double v) {
+        const EosTerms<double> t = products.terms(1 / v - 1);
+        return (t.a + t.b * products.initial_energy()) / (1 - 0.5 * t.b * (1 - v));
+    };
+    double best = 1e300, volume = 0.7;
+    for (double v = 0.4; v < 0.98; v += 1e-4) {
+        const double slope = hugoniot(v) / (1 - v);
+        if (slope > 0 && slope < best) {
+            best = slope;
+            volume = v;
+        }
+    }
+    double low = volume - 2e-4, high = volume + 2e-4;  // golden section on the bracket
+    for (int i = 0; i < 100; ++i) {
+        const double a = high - 0.6180339887 * (high - low), b = low + 0.6180339887 * (high - low);
+        if (hugoniot(a) / (1 - a) < hugoniot(b) / (1 - b)) high = b;
+        else low = a;
+    }
+    volume = 0.5 * (low + high);
+    const double pressure = hugoniot(volume);
+    return {std::sqrt(pressure / (1 - volume) / density), pressure, volume};
+}
+
+Material make_material(const MaterialData& data) {
+    Material m;
+    m.name = data.name;
+    if (!(data.density.dimension == dimension::density) || !(data.density.value > 0))
+        throw InputError(fmt::format("{}: density = {} must be a positive density such as \"2660 kg/m3\"", data.density.where, data.density.text));
+    m.density = data.density.value;
+    const ParameterSet inherited{{"density", data.density}};
+
+    const EosEntry& eos = find_law(eos_registry(), data.eos, "eos");
+    m.eos = eos.make(checked(eos.parameters, data.eos, inherited));
+    if (data.strength) {
+        const StrengthEntry& law = find_law(strength_registry(), *data.strength, "strength");
+        m.strength = law.make(checked(law.parameters, *data.strength, inherited), *m.eos, m.density);
+        m.remarks = m.strength->remarks();
+    }
+    check_sound_speed(m, data);
+    if (data.burn) {
+        if (data.burn->law != "programmed")
+            throw InputError(fmt::format("{}: burn law = \"{}\" is not known; allowed: programmed", data.burn->where, data.burn->law));
+        const ParameterSet p = checked(burn_parameters(), *data.burn, inherited);
+        BurnLaw burn{p.at("D").value, p.at("P_CJ").value, 0};
+        burn.cj_volume = 1 - burn.cj_pressure / (m.density * burn.speed * burn.speed);
+        if (!(burn.cj_volume > 0.3 && burn.cj_volume < 1))
+            throw InputError(fmt::format("{}: P_CJ = {} and D = {} give V_CJ = {:.3f}, which no explosive has", p.at("P_CJ").where,
+                                         p.at("P_CJ").text, p.at("D").text, burn.cj_volume));
+        const CjState cj = chapman_jouguet(*m.eos, m.density);
+        m.remarks.push_back(fmt::format("CJ state of the products: D = {:.0f} m/s ({:+.2f} %), P = {:.2f} GPa ({:+.1f} %)", 1e3 * cj.speed,
+                                        100 * (cj.speed / burn.speed - 1), cj.pressure, 100 * (cj.pressure / burn.cj_pressure - 1)));
+        if (std::abs(cj.speed / burn.speed - 1) > 0.01 || std::abs(cj.pressure / burn.cj_pressure - 1) > 0.03)
+            m.remarks.push_back("warning: the products miss the stated CJ state by more than 1 % in D or 3 % in P");
+        m.burn = std::make_shared<const BurnLaw>(burn);
+    }
+    return m;
+}
+
+}  // namespace brisance

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Johnson-Cook:  sigma_y = (A + B eps_p^n) (1 + C ln max(rate/EPS0, 1)) (1 - theta^m),  theta = (T - T_room)/(T_melt - T_room) in [0, 1].
+// Radial return by bisection-guarded Newton on  s_eq - 3 G de - sigma_y(eps_p + de) = 0;  the rate is the total deviatoric one of the step.
+// Heating: dT = chi sigma_y de / (rho_0 c_v). Damage D1..D5 as in Johnson & Cook 1985; off where D1..D5 are all zero.
+#include "laws/strength.h"
+#include "math/power.h"
+
+namespace brisance {
+namespace {
+
+struct JohnsonCook {
+    static constexpr const char* name = "johnson_cook";
+    static constexpr const char* meaning = "Johnson-Cook plasticity with adiabatic heating and, where given, its damage";
+    static std::vector<ParameterInfo> parameters() {
+        std::vector<ParameterInfo> rows = {
+            {"G", dimension::pressure, "shear modulus", 1e-6, 1e4},
+            {"A", dimension::pressure, "yield stress at rest", 0, 100},
+            {"B", dimension::pressure, "hardening", 0, 100},
+            {"n", dimension::none, "hardening exponent", 0, 5},
+            {"C", dimension::none, "rate coefficient", 0, 1},
+            {"m", dimension::none, "thermal exponent", 0.01, 10},
+            {"EPS0", dimension::rate, "reference strain rate", 1e-12, 1e6},
+            {"T_room", dimension::temperature, "reference temperature", 0, 5000},
+            {"T_melt", dimension::temperature, "melting temperature", 1, 20000},
+            {"c_v", dimension::specific_heat, "specific heat", 1e-9, 1},
+            {"chi", dimension::none, "Taylor-Quinney fraction of plastic work that heats", 0, 1}};
+        for (int i = 1; i <= 5; ++i)
+            rows.push_back({"D" + std::to_string(i), dimension::none, "damage constant; all zero: no damage", -100, 100, 0.0});
+        rows.push_back({"damage", dimension::none, "1: damage weakens the metal; 0: it does not (copper expands without tearing)", 0, 1, 0.0});
+        return rows;
+    }
+    static std::vector<StateInfo> state() {
+        return {{"damage", "-", "Johnson-Cook damage", 0},
+                {"plastic_strain", "-", "equivalent plastic strain", 0},
+                {"heating", "K", "temperature above the initial one", 0}};
+    }
+    JohnsonCook(const ParameterSet& p, const Eos&, double density)
+        : G(p.at("G").value), A(p.at("A").value), B(p.at("B").value), n(p.at("n").value), C(p.at("C").value), m(p.at("m").value),
+          eps0(p.at("EPS0").value), t_span(p.at("T_melt").value - p.at("T_room").value), heat(p.at("chi").value / (density * p.at("c_v").value)),
+          damages(p.at("damage").value > 0) {
+        for (int i = 0; i < 5; ++i) d[i] = p.at("D" + std::to_string(i + 1)).value;
+    }
+    double shear_modulus() const { return G; }
+
+    template <class V> BRISANCE_HD void update(SolidPoint<V>& p) const {
+        using R = ScalarOf<V>;
+        const V zero{}, one = broadcast<V>(R(1));
+        const V damage = p.state[0], eps = p.state[1], heating = p.state[2];
+        const V s_intact = damages ? vmax(one - damage, broadcast<V>(R(0.01))) : one;
+        const Sym3<V> trial = elastic_trial(p, R(2 * G));
+        const V s_eq = mises(trial);
+        const V log_rate = natural_log(vmax(equivalent_rate(p) / R(eps0), one));
+        const V rate = one + R(C) * log_rate;
+        const V theta = clamp(heating / R(t_span), zero, one);
+        const V soft = rate * (one - power(theta, R(m))) * s_intact;
+        // g(de) = s_eq - 3 G de - Y(eps + de) falls; its root lies in [0, s_eq/(3G)].
+        V low = zero, high = s_eq / R(3 * G);
+        const V y0 = (R(A) + R(B) * power(eps, R(n))) * soft;
+        V de = vmax(s_eq - y0, zero) / R(3 * G);
+        for (int it = 0; it < 8; ++it) {
+            const V strain = vmax(eps + de, broadcast<V>(R(1e-12)));
+            const V hardening = R(B) * power(strain, R(n)) * soft;
+            const V g = s_eq - R(3 * G) * de - (R(A) * soft + hardening);
+            low = (g > zero) ? de : low;
+            high = (g > zero) ? high : de;
+            const V next = de + g / (R(3 * G) + R(n) * hardening / strain);
+            const V middle = R(0.5) * (low + high);
+            de = (next > low) ? ((next < high) ? next : middle) : middle;
+        }
+        de = (s_eq > y0) ? de : zero;
+        const V y = vmax(s_eq - R(3 * G) * de, zero);
+        p.s = scaled(trial, (s_eq > y0) ? y / vmax(s_eq, broadcast<V>(R(1e-30))) : one);
+        p.state[1] = eps + de;
+        p.state[2] = heating + R(heat) * y * de;
+        const V triaxiality = clamp(-p.pressure / vmax(y, broadcast<V>(R(1e-6))), broadcast<V>(R(-1.5)), broadcast<V>(R(1.5)));
+        const V eps_f = (R(d[0]) + R(d[1]) * exponential(R(d[2]) * triaxiality)) * (one + R(d[3]) * log_rate) *
+                        (one + R(d[4]) * theta);
+        p.state[0] = (eps_f > zero) ? vmin(damage + de / vmax(eps_f, broadcast<V>(R(1e-6))), one) : damage;
+        p.yield = y0;
+        p.shear_stiffness = broadcast<V>(R(4.0 / 3.0 * G));
+        // A full elastic zero-energy spring would lock plastic flow: beyond a small plastic strain it is kept at a tenth.
+        p.integrity = (p.state[1] > broadcast<V>(R(1e-3))) ? broadcast<V>(R(0.1)) : one;
+    }
+
+    double G, A, B, n, C, m, eps0, t_span, heat;
+    bool damages;
+    double d[5];
+};
+
+const bool registered = register_strength<JohnsonCook>();
+
+}  // namespace
+}  // namespace brisance

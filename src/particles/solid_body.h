@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// State of a total-Lagrangian part, one array per component, one slot per particle (particles/columns.h).
+// Times: u, R, T, s and the law's state are at t_n; v is at t_n-1/2 before the kick of step n and at t_n+1/2 after it.
+#pragma once
+
+#include "laws/material.h"
+#include "particles/columns.h"
+
+#include <array>
+#include <initializer_list>
+#include <string>
+
+namespace brisance {
+
+/// Why a particle failed; see analysis/failure_cause.h for the rule.
+struct FailureRule {
+    int mode = 0;                       ///< 0: the law alone; 1: no tension, no shear; 2: all stresses vanish (once damage is 1)
+    double tensile = 0, shear = 0;      ///< GPa; principal-stress failure as a criterion of its own (0: off)
+    double label_tensile = 0, label_shear = 0;  ///< GPa; strengths that label the cause
+    double threshold = 0.8;             ///< damage at which a particle counts as failed, and its failure time is noted
+};
+
+struct SolidOptions {
+    double smoothing = 1.3;
+    double zero_energy = 0.05;    ///< stiffness of the zero-energy control over the longitudinal modulus
+    bool pairwise = false;
+    double alpha = 0, beta = 0;   ///< pairwise viscosity
+    double linear = 0, quadratic = 0;  ///< bulk viscosity
+    FailureRule failure;
+};
+
+template <class R>
+struct SolidBody {
+    std::string name;
+    Material material;
+    SolidOptions options;
+    Columns layout;
+
+    std::array<Array<R>, 3> u, v;   ///< displacement mm, velocity mm/us
+    std::array<Array<R>, 3> v_now, acceleration;  ///< velocity extrapolated to t_n, and what extrapolates it: only with pairwise viscosity
+    std::array<Array<R>, 9> R_sum;  ///< sum w (u_j - u_i) (x) xi = (F - I) K, row-major
+    std::array<Array<R>, 9> T;      ///< P K^-1 - a (F - I), GPa: what the stress sum needs (formulations/total_lagrangian/stress.cpp)
+    std::array<Array<R>, 6> s;      ///< Cauchy deviator GPa, xx yy zz xy xz yz
+    Array<R> pressure;              ///< GPa
+    Array<R> energy;                ///< internal energy per initial volume, GPa, exact to the kicks done so far
+    Array<R> power;                 ///< P : dF/dt at t_n with the velocity of t_n-1/2, GPa/us
+    Array<R> stiffness;             ///< a, of the zero-energy control, GPa
+    Array<R> scale;                 ///< strength scale of the place
+    Array<R> live;                  ///< 1: takes part in the sums; 0: padding or torn
+    std::vector<Array<R>> state;    ///< the law's columns
+    // what analysis wants, in single precision
+    Array<float> peak_pressure, peak_radial;     ///< GPa, largest so far (radial: compression positive)
+    Array<float> sigma_1, tau_max;               ///< GPa, largest before failure
+    Array<float> failure_time;                   ///< us; negative: whole
+    Array<float> yield;                          ///< GPa, strength in force
+    Array<std::uint8_t> cause;                   ///< analysis/failure_cause.h
+
+    double axis_x = 0, axis_y = 0;   ///< radial stress is taken about this axis
+    double energy_at_start = 0;      ///< J
+
+    double volume(const Column& c) const { return c.area * layout.dz; }
+    double mass(const Column& c) const { return material.density * volume(c); }
+};
+
+/// Allocates everything for a layout, at rest and unstressed.
+template <class R>
+void allocate(SolidBody<R>& b) {
+    const auto n = static_cast<std::size_t>(b.layout.slots);
+    for (auto* group : {&b.u, &b.v})
+        for (auto& a : *group) a.assign(n, R(0));
+    if (b.options.pairwise)
+        for (auto* group : {&b.v_now, &b.acceleration})
+            for (auto& a : *group) a.assign(n, R(0));
+    for (auto& a : b.R_sum) a.assign(n, R(0));
+    for (auto& a : b.T) a.assign(n, R(0));
+    for (auto& a : b.s) a.assign(n, R(0));
+    for (auto* a : {&b.pressure, &b.energy, &b.power, &b.stiffness, &b.live}) a->assign(n, R(0));
+    b.scale.assign(n, R(1));
+    b.energy.assign(n, R(b.material.eos->initial_energy()));
+    b.state.clear();
+    for (const StateInfo& info : b.material.strength->state()) b.state.emplace_back(n, R(info.initial));
+    for (auto* a : {&b.peak_pressure, &b.peak_radial, &b.sigma_1, &b.tau_max, &b.yield}) a->assign(n, 0.0f);
+    b.failure_time.assign(n, -1.0f);
+    b.cause.assign(n, 0);
+    const R a0 = static_cast<R>(b.options.zero_energy * b.material.longitudinal_modulus());
+    for (std::size_t i = 0; i < n; ++i)
+        if (b.layout.flags[i] & slot_own) {
+            b.live[i] = R(1);
+            b.stiffness[i] = a0;
+        }
+}
+
+/// Copies the layers of every column into its periodic images, for some arrays at once.
+template <class T>
+void fill_images(const Columns& layout, std::initializer_list<T*> arrays) {
+    if (!layout.periodic) return;
+    exec::for_each(static_cast<std::int64_t>(layout.columns.size()), [&](std::int64_t c) {
+        const Column& column = layout.columns[static_cast<std::size_t>(c)];
+        const int n = column.layers;
+        for (T* a : arrays) {
+            T* first = a + column.start;
+            // outwards, so that more images than layers repeat the pattern
+            for (int k = 1; k <= layout.pad; ++k) first[-k] = first[n - k];
+            for (int k = 0; k < layout.pad; ++k) first[n + k] = first[k];
+        }
+    }, 256);
+}
+template <class R>
+void fill_images(const Columns& layout, std::array<Array<R>, 3>& a) {
+    fill_images(layout, {a[0].data(), a[1].data(), a[2].data()});
+}
+
+}  // namespace brisance
