@@ -9,7 +9,7 @@ from pathlib import Path
 from brisance import cracks, energy, maps, style, waves
 from brisance.plates import Absent
 
-PNG_DPI, PDF_DPI = 160, 300  # PDF: only the particles are pixels
+PNG_DPI, PDF_DPI = 160, 240  # PDF: only the particles are pixels
 
 CATALOGUE = (  # (anchor, heading, drawing functions)
     ("damage", "Damage on the sections", (maps.damage,)),

@@ -28,11 +28,14 @@ import sys
 
 from paraview.simple import *
 
-RUN = @RUN@
-SECTIONS = @SECTIONS@          # name: (height of the cut, thickness shown), mm
-PART = @PART@                  # id of the rock in the field `part`; None: all parts
-THRESHOLD = @THRESHOLD@        # damage from which a particle is shown as a crack
-SIZE = @SIZE@                  # diameter of a particle on the picture, mm
+try:
+    RUN = os.path.dirname(os.path.abspath(__file__))
+except NameError:  # some ways of running a script do not tell where it lies
+    RUN = @RUN@
+SECTIONS = @SECTIONS@  # name: (height of the cut, thickness shown), mm
+PART = @PART@  # id of the rock in the field `part`; None: all parts
+THRESHOLD = @THRESHOLD@  # damage from which a particle is shown as a crack
+SIZE = @SIZE@  # diameter of a particle on the picture, mm
 TITLE = @TITLE@
 
 folder = os.path.join(RUN, "snapshots")

@@ -46,7 +46,8 @@ int zone_of(double radius, std::span<const double> edges) {
 std::vector<int> damaged_per_zone(const SectionPoints& points, std::span<const double> edges, double threshold) {
     std::vector<int> damaged(zone_areas(edges).size(), 0);
     for (std::size_t i = 0; i < points.count(); ++i)
-        if (const int zone = zone_of(points.radius(i), edges); zone >= 0 && points.cracked(i, threshold)) ++damaged[static_cast<std::size_t>(zone)];
+        if (const int zone = zone_of(points.radius(i), edges); zone >= 0 && points.cracked(i, threshold))
+            ++damaged[static_cast<std::size_t>(zone)];
     return damaged;
 }
 

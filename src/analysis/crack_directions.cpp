@@ -15,13 +15,14 @@ namespace brisance::analysis {
 
 namespace {
 
-/// Sum of weight(i) over the damaged particles of each sector.
+/// Sum of weight(i) over the damaged particles of each sector at r >= r_from.
 template <class Weight>
-std::vector<double> sum_by_sector(const SectionPoints& points, double threshold, int sectors, Weight weight) {
+std::vector<double> sum_by_sector(const SectionPoints& points, double threshold, int sectors, Weight weight, double r_from = 0) {
     if (sectors < 1) throw std::invalid_argument("directions: at least one sector");
     std::vector<double> sum(static_cast<std::size_t>(sectors), 0.0);
     for (std::size_t i = 0; i < points.count(); ++i)
-        if (points.cracked(i, threshold)) sum[static_cast<std::size_t>(sector_of(points.azimuth(i), sectors))] += weight(i);
+        if (points.cracked(i, threshold) && points.radius(i) >= r_from)
+            sum[static_cast<std::size_t>(sector_of(points.azimuth(i), sectors))] += weight(i);
     return sum;
 }
 
@@ -30,8 +31,9 @@ void scale_to_mean(std::vector<double>& values, double total) {
     for (double& v : values) v *= static_cast<double>(values.size()) / total;
 }
 
-/// Size-weighted mean size of the groups of damaged particles that hang together within a sector.
-double mean_clump(const SectionPoints& points, double threshold, int sectors) {
+/// Size-weighted mean size of the groups of damaged particles at r >= r_from that hang together within a sector.
+double mean_clump(const SectionPoints& points, double threshold, int sectors, double r_from) {
+    const auto counts = [&](std::size_t i) { return points.cracked(i, threshold) && points.radius(i) >= r_from; };
     std::vector<std::size_t> root(points.count());
     std::iota(root.begin(), root.end(), std::size_t{0});
     const auto find = [&](std::size_t i) {
@@ -40,15 +42,15 @@ double mean_clump(const SectionPoints& points, double threshold, int sectors) {
     };
     const PointGrid grid(points.x, points.y, 2 * *std::min_element(points.size.begin(), points.size.end()));
     for (std::size_t i = 0; i < points.count(); ++i) {
-        if (!points.cracked(i, threshold)) continue;
+        if (!counts(i)) continue;
         const int sector = sector_of(points.azimuth(i), sectors);
         grid.near(points.x[i], points.y[i], 1.5 * points.size[i], [&](std::size_t j) {
-            if (points.cracked(j, threshold) && sector_of(points.azimuth(j), sectors) == sector) root[find(i)] = find(j);
+            if (counts(j) && sector_of(points.azimuth(j), sectors) == sector) root[find(i)] = find(j);
         });
     }
     std::vector<double> members(points.count(), 0.0);
     for (std::size_t i = 0; i < points.count(); ++i)
-        if (points.cracked(i, threshold)) members[find(i)] += 1;
+        if (counts(i)) members[find(i)] += 1;
     double n = 0, squares = 0;
     for (double m : members) {
         n += m;
@@ -86,13 +88,13 @@ std::vector<double> direction_harmonics(const SectionPoints& points, double thre
     return harmonics;
 }
 
-IsotropyTest isotropy_test(const SectionPoints& points, double threshold, int sectors) {
-    const auto counts = sum_by_sector(points, threshold, sectors, [](std::size_t) { return 1.0; });
+IsotropyTest isotropy_test(const SectionPoints& points, double threshold, int sectors, double r_from) {
+    const auto counts = sum_by_sector(points, threshold, sectors, [](std::size_t) { return 1.0; }, r_from);
     const double expected = std::accumulate(counts.begin(), counts.end(), 0.0) / sectors;
     IsotropyTest test;
     if (!(expected > 0)) return test;
     for (double n : counts) test.chi_square += (n - expected) * (n - expected) / expected;
-    test.clump = mean_clump(points, threshold, sectors);
+    test.clump = mean_clump(points, threshold, sectors, r_from);
     if (sectors > 1) test.p_value = chi_square_survival(test.chi_square / test.clump, sectors - 1);
     return test;
 }

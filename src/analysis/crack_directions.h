@@ -34,13 +34,14 @@ struct IsotropyTest {
     double p_value = 1;     ///< of chi_square / clump with k - 1 degrees of freedom; small: the directions differ
 };
 
-/// Are all directions alike? Pearson's chi-square of the counts of damaged particles in k sectors against n / k. The particles of one
-/// crack fail together, so the plain statistic rejects nearly always; it is divided by the design effect (Rao and Scott, Ann. Stat. 12
-/// (1984) 46, first order): clump = sum n_c^2 / sum n_c over the clumps c, which are the damaged particles of one sector that hang together
-/// (closer than 1.5 sizes). A crack then counts once per sector it visits, whatever its number of particles.
+/// Are all directions alike? Pearson's chi-square of the counts of damaged particles at r >= r_from in k sectors against n / k. The
+/// particles of one crack fail together, so the plain statistic rejects nearly always; it is divided by the design effect (Rao and
+/// Scott, Ann. Stat. 12 (1984) 46, first order): clump = sum n_c^2 / sum n_c over the clumps c, which are the damaged particles of one
+/// sector that hang together (closer than 1.5 sizes). A crack then counts once per sector it visits, whatever its number of particles.
+/// Choose r_from, mm, beyond the crushed zone: inside it the cracks of a sector are one clump, and nothing can be told.
 /// Good for n / clump of some 2 k or more; with fewer clumps a large p says only that there are too few cracks to tell.
 /// Wandering cracks and rings tie neighbouring sectors together, which this does not correct. p = 1 where nothing is damaged.
-IsotropyTest isotropy_test(const SectionPoints& points, double threshold, int sectors = 72);
+IsotropyTest isotropy_test(const SectionPoints& points, double threshold, int sectors = 72, double r_from = 0);
 
 /// How radial the damage is: sum D_i q_i cos 2(phi_i - theta_i) / sum D_i over D_i > threshold, with phi the local direction of the damage
 /// and q its strength (orientation.h). Near 1: radial cracks; near -1: rings and spall; 0: a round patch, or no preference.

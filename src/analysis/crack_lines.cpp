@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/crack_lines.h"
 
+#include "analysis/distance_map.h"
 #include "analysis/thinning.h"
 
 #include <algorithm>
@@ -30,26 +31,13 @@ struct Graph {
     std::vector<Branch> branches;
 };
 
-/// Distance from the centre of a set pixel to the edge of the mask, mm, by search outwards.
-double distance_to_edge(const DamageRaster& raster, const Mask& mask, std::size_t p) {
-    const auto px = static_cast<long>(p % raster.nx), py = static_cast<long>(p / raster.nx);
-    const auto nx = static_cast<long>(raster.nx), ny = static_cast<long>(raster.ny);
-    double nearest = static_cast<double>(nx + ny);
-    for (long ring = 1; static_cast<double>(ring) <= nearest; ++ring)
-        for (long dy = -ring; dy <= ring; ++dy)
-            for (long dx = -ring; dx <= ring; dx += std::abs(dy) == ring ? 1 : 2 * ring) {
-                const long ix = px + dx, iy = py + dy;
-                const bool outside = ix < 0 || iy < 0 || ix >= nx || iy >= ny;
-                if (outside || !mask[static_cast<std::size_t>(iy * nx + ix)])
-                    nearest = std::min(nearest, std::hypot(static_cast<double>(dx), static_cast<double>(dy)));
-            }
-    return (nearest - 0.5) * raster.pixel;
-}
+double half_width(const DamageRaster& raster, const std::vector<float>& depth, std::size_t p) { return raster.pixel * (depth[p] - 0.5); }
 
 class Tracer {
 public:
-    Tracer(const DamageRaster& raster, const Mask& mask, const Mask& skeleton)
-        : raster_(raster), mask_(mask), skeleton_(skeleton), step_(raster.neighbours()), node_(skeleton.size(), -1), visited_(skeleton.size(), 0) {}
+    Tracer(const DamageRaster& raster, const std::vector<float>& depth, const Mask& skeleton)
+        : raster_(raster), depth_(depth), skeleton_(skeleton), step_(raster.neighbours()), node_(skeleton.size(), -1),
+          visited_(skeleton.size(), 0) {}
 
     Graph trace() {
         for (std::size_t p = 0; p < skeleton_.size(); ++p)
@@ -83,7 +71,7 @@ private:
                     }
         for (std::size_t p : node.pixels) {
             node.centre = node.centre + (1 / static_cast<double>(node.pixels.size())) * Vec2{raster_.x(p), raster_.y(p)};
-            node.width = std::max(node.width, distance_to_edge(raster_, mask_, p));
+            node.width = std::max(node.width, half_width(raster_, depth_, p));
         }
         graph_.nodes.push_back(std::move(node));
     }
@@ -136,7 +124,7 @@ private:
     }
 
     const DamageRaster& raster_;
-    const Mask& mask_;
+    const std::vector<float>& depth_;
     const Mask& skeleton_;
     std::array<std::ptrdiff_t, 8> step_;
     std::vector<std::int32_t> node_;
@@ -166,11 +154,38 @@ double size_at(const SectionPoints& points, const DamageRaster& raster, const st
     return sum / static_cast<double>(pixels.size());
 }
 
+/// A disc inside the damage.
+struct Disc {
+    Vec2 centre;
+    double radius;
+};
+
+/// The discs around lines that lead from junction to junction or close on themselves, where they are broader than roughness.
+std::vector<Disc> broad_discs(const SectionPoints& points, const DamageRaster& raster, const std::vector<float>& depth,
+                              const Graph& graph, double spur) {
+    const auto free_end = [&](std::size_t n) { return n != Branch::none && graph.nodes[n].branches.size() == 1; };
+    std::vector<Disc> discs;
+    for (const Branch& branch : graph.branches) {
+        if (free_end(branch.from) || free_end(branch.to)) continue;
+        for (std::size_t p : branch.pixels)
+            if (const double w = half_width(raster, depth, p); w > spur * points.size[static_cast<std::size_t>(raster.owner[p])])
+                discs.push_back({{raster.x(p), raster.y(p)}, w});
+    }
+    return discs;
+}
+
 /// Takes the spurs out of the skeleton; says whether there were any.
-bool remove_spurs(const SectionPoints& points, const DamageRaster& raster, const Graph& graph, double spur, Mask& skeleton) {
+bool remove_spurs(const SectionPoints& points, const DamageRaster& raster, const std::vector<float>& depth,
+                  const Graph& graph, double spur, Mask& skeleton) {
     struct Candidate {
         std::size_t branch, end;
         double length;
+    };
+    const auto discs = broad_discs(points, raster, depth, graph, spur);
+    const auto stands_out = [&](const Node& tip, const Node& junction) {
+        double least = norm(tip.centre - junction.centre) - junction.width;
+        for (const Disc& d : discs) least = std::min(least, norm(tip.centre - d.centre) - d.radius);
+        return least + tip.width;
     };
     bool removed = false;
     for (const Node& junction : graph.nodes) {
@@ -182,8 +197,7 @@ bool remove_spurs(const SectionPoints& points, const DamageRaster& raster, const
             const Node& tip = graph.nodes[end];
             if (tip.branches.size() != 1) continue;
             const double length = length_of(corners(raster, graph, branch));
-            const double stands_out = norm(tip.centre - junction.centre) + tip.width - junction.width;
-            if (stands_out < spur * size_at(points, raster, tip.pixels)) spurs.push_back({b, end, length});
+            if (stands_out(tip, junction) < spur * size_at(points, raster, tip.pixels)) spurs.push_back({b, end, length});
         }
         if (spurs.size() == junction.branches.size()) {
             std::stable_sort(spurs.begin(), spurs.end(), [](const Candidate& a, const Candidate& b) { return a.length > b.length; });
@@ -217,11 +231,12 @@ std::vector<Vec2> smoothed(const std::vector<Vec2>& line, std::size_t reach, boo
 double CrackLine::length() const { return length_of(points) + tip_first + tip_last; }
 
 std::vector<CrackLine> crack_lines(const SectionPoints& points, const DamageRaster& raster, const Mask& mask, const LineOptions& options) {
-    Mask skeleton = thin(raster, mask);
-    Graph graph = Tracer(raster, mask, skeleton).trace();
-    while (remove_spurs(points, raster, graph, options.spur, skeleton)) {
+    const std::vector<float> depth = distance_to_unset(raster, mask);
+    Mask skeleton = thin(raster, mask, depth);
+    Graph graph = Tracer(raster, depth, skeleton).trace();
+    while (remove_spurs(points, raster, depth, graph, options.spur, skeleton)) {
         tidy(raster, skeleton);
-        graph = Tracer(raster, mask, skeleton).trace();
+        graph = Tracer(raster, depth, skeleton).trace();
     }
     const auto tip = [&](std::size_t n) { return n != Branch::none && graph.nodes[n].branches.size() == 1 ? graph.nodes[n].width : 0.0; };
     std::vector<CrackLine> lines;

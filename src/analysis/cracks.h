@@ -45,8 +45,9 @@ RadialCracks radial_cracks(const SectionPoints& points, const DamageRaster& rast
 /// without any gap is a ring: 0.
 int arcs_on_circle(const DamageRaster& raster, const Mask& mask, double radius, double gap);
 
-/// Largest r, mm, such that at least `share` of the particles' area within r of the axis is damaged; 0 where there is none. The share is that of
-/// the whole disc, so around a hole of radius h damage that ends sharply at a gives sqrt(h^2 + (a^2 - h^2) / share): 1.12 a for h = 0, 0.8.
+/// Largest r, mm, such that at least `share` of the particles' area within r of the axis is damaged; 0 where there is none. The
+/// share is that of all within r, so around a hole of radius h damage that ends sharply at r = a gives
+/// sqrt(h^2 + (a^2 - h^2) / share): 1.12 a for h = 0 and a share of 0.8.
 double crushed_radius(const SectionPoints& points, double threshold, double share = 0.8);
 
 struct Spall {
@@ -54,11 +55,11 @@ struct Spall {
     double coverage = 0;           ///< fraction of the circumference
 };
 
-/// The ring of circumferential damage beyond 0.75 outer radii. Of the damaged particles there, those where the damage runs along the
-/// radius (orientation.h: along > 0) belong to radial cracks and are left out. The others go, by area over circumference, into a histogram of
-/// r with bins one particle wide; the band is its highest bin with the neighbours down to half of it. radius: mean of the
-/// band; width: the extent of its bins; coverage: the union of the angles of its particles, each taken as 1.5 sizes wide, so that
-/// neighbours in any arrangement touch.
+/// The ring of circumferential damage beyond 0.75 outer radii. Of the damaged particles there, those where the damage runs along
+/// the radius (orientation.h: along > 0) belong to radial cracks and are left out. The others go, by area over circumference, into a
+/// histogram of r with bins one particle wide; the band is its highest bin with the neighbours down to half of it. radius: mean of
+/// the band; width: the extent of its bins; coverage: the union of the angles of its particles, each taken as 1.5 sizes wide, so
+/// that neighbours in any arrangement touch.
 Spall find_spall(const SectionPoints& points, double threshold, const Specimen& specimen);
 
 }  // namespace brisance::analysis

@@ -128,6 +128,7 @@ std::array<std::ptrdiff_t, 8> DamageRaster::neighbours() const {
 DamageRaster rasterise(const SectionPoints& points, const RasterOptions& options) {
     check(points);
     DamageRaster raster = frame(points, options);
+    if (raster.count() == 0) return raster;
     const Distances d = scatter(points, options, raster);
     for (std::size_t p = 0; p < raster.count(); ++p) {
         if (raster.owner[p] < 0) continue;
@@ -135,7 +136,7 @@ DamageRaster rasterise(const SectionPoints& points, const RasterOptions& options
         if (std::sqrt(d.to_damaged[p]) <= std::sqrt(d.to_any[p]) + allowance) raster.damaged[p] = 1;
         else raster.owner[p] = -1;
     }
-    if (raster.count() > 0) fill_small_holes(points, options.smallest_hole, raster);
+    fill_small_holes(points, options.smallest_hole, raster);
     return raster;
 }
 

@@ -6,6 +6,7 @@
 #include "analysis/failure_cause.h"
 #include "analysis/json.h"
 
+#include <algorithm>
 #include <string>
 
 namespace brisance::analysis {
@@ -77,9 +78,9 @@ SectionReport analyse_section(const SectionPoints& points, double time, const Se
     r.pdf_normalised = direction_pdf_normalised(points, threshold, options.sectors);
     r.harmonics = direction_harmonics(points, threshold);
     r.radial_coherence = radial_coherence(points, threshold);
-    r.isotropy = isotropy_test(points, threshold, options.sectors);
     r.radial = radial_cracks(points, raster, threshold, options.specimen);
     r.crushed_radius = crushed_radius(points, threshold);
+    r.isotropy = isotropy_test(points, threshold, options.sectors, std::max(r.crushed_radius, 3 * options.specimen.hole_radius));
     r.spall = find_spall(points, threshold, options.specimen);
     return r;
 }

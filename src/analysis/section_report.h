@@ -13,9 +13,9 @@
 namespace brisance::analysis {
 
 struct SectionOptions {
-    double threshold = 0.8;                       ///< cracked: D > threshold
-    std::vector<double> zone_edges{0, 24, 48, 72};  ///< mm
-    int sectors = 72;
+    double threshold = 0.8;          ///< cracked: D > threshold
+    std::vector<double> zone_edges;  ///< mm, two or more (crack_density.h)
+    int sectors = 72;                ///< of Eq. 13
     Specimen specimen;
 };
 

@@ -53,7 +53,8 @@ inline SectionPoints graded_rings(double inner, double outer, double fine, doubl
         const double start = noise(seed);
         for (int k = 0; k < n; ++k) {
             const double azimuth = start + 2 * std::numbers::pi * k / n;
-            add_particle(points, middle * std::cos(azimuth), middle * std::sin(azimuth), std::sqrt(2 * std::numbers::pi * middle * spacing / n));
+            add_particle(points, middle * std::cos(azimuth), middle * std::sin(azimuth),
+                         std::sqrt(2 * std::numbers::pi * middle * spacing / n));
         }
         r += spacing;
     }
@@ -86,7 +87,7 @@ inline void draw_line(SectionPoints& points, double x_0, double y_0, double x_1,
 inline void draw_thin_line(SectionPoints& points, double x_0, double y_0, double x_1, double y_1, double damage = 1) {
     const double finest = *std::min_element(points.size.begin(), points.size.end());
     const PointGrid grid(points.x, points.y, 2 * finest);
-    const int steps = static_cast<int>(20 * std::hypot(x_1 - x_0, y_1 - y_0) / finest);
+    const int steps = 1 + static_cast<int>(20 * std::hypot(x_1 - x_0, y_1 - y_0) / finest);
     const double reach = 1.5 * *std::max_element(points.size.begin(), points.size.end());
     for (int k = 0; k <= steps; ++k) {
         const double x = x_0 + (x_1 - x_0) * k / steps, y = y_0 + (y_1 - y_0) * k / steps;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/thinning.h"
 
+#include <algorithm>
+
 namespace brisance::analysis {
 
 namespace {
@@ -30,38 +32,38 @@ struct Neighbourhood {
 
 }  // namespace
 
-Mask thin(const DamageRaster& raster, const Mask& mask) {
+Mask thin(const DamageRaster& raster, const Mask& mask, const std::vector<float>& depth) {
+    constexpr float layer = 0.5F;  // pixels
     Mask m = mask;
     const auto step = raster.neighbours();
-    std::vector<std::size_t> edge, next, gone;
+    std::vector<std::size_t> edge, gone;
     Mask listed(m.size(), 0);
-    const auto list = [&](std::size_t p, std::vector<std::size_t>& to) {
+    const auto list = [&](std::size_t p) {
         if (listed[p]) return;
         listed[p] = 1;
-        to.push_back(p);
+        edge.push_back(p);
     };
     for (std::size_t p = 0; p < m.size(); ++p) {
         if (!m[p]) continue;
         bool inside = true;
         for (std::ptrdiff_t s : step) inside = inside && m[p + static_cast<std::size_t>(s)];
-        if (!inside) list(p, edge);
+        if (!inside) list(p);
     }
-    int idle = 0;
-    for (int sub = 0; idle < 2; sub = 1 - sub) {
-        gone.clear();
-        for (std::size_t p : edge)
-            if (Neighbourhood(m, p, raster.nx).goes(sub)) gone.push_back(p);
-        for (std::size_t p : gone) m[p] = 0;
-        for (std::size_t p : gone)
-            for (std::ptrdiff_t s : step) {
-                const std::size_t q = p + static_cast<std::size_t>(s);
-                if (m[q]) list(q, edge);
-            }
-        next.clear();
-        for (std::size_t p : edge)
-            if (m[p]) next.push_back(p);
-        edge.swap(next);
-        idle = gone.empty() ? idle + 1 : 0;
+    const float deepest = m.empty() ? 0 : *std::max_element(depth.begin(), depth.end());
+    for (float level = 1; level < deepest + layer; level += layer) {
+        int idle = 0;
+        for (int sub = 0; idle < 2; sub = 1 - sub) {
+            gone.clear();
+            for (std::size_t p : edge)
+                if (depth[p] <= level && Neighbourhood(m, p, raster.nx).goes(sub)) gone.push_back(p);
+            idle = gone.empty() ? idle + 1 : 0;
+            if (gone.empty()) continue;
+            for (std::size_t p : gone) m[p] = 0;
+            for (std::size_t p : gone)
+                for (std::ptrdiff_t s : step)
+                    if (const std::size_t q = p + static_cast<std::size_t>(s); m[q]) list(q);
+            std::erase_if(edge, [&](std::size_t p) { return !m[p]; });
+        }
     }
     tidy(raster, m);
     return m;

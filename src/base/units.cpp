@@ -244,8 +244,12 @@ std::string dimension_example(Dimension d) {
 std::string internal_unit(Dimension d) {
     if (const Name* known = find_name(d)) return known->unit;
     std::string unit;
-    for (const auto& [symbol, power] : {std::pair{"mg", d.mass}, {"mm", d.length}, {"us", d.time}, {"K", d.temperature}})
-        if (power != 0) unit += (unit.empty() ? "" : "*") + std::string(symbol) + (power == 1 ? "" : "^" + std::to_string(power));
+    for (const auto& [symbol, power] : {std::pair{"mg", d.mass}, {"mm", d.length}, {"us", d.time}, {"K", d.temperature}}) {
+        if (power == 0) continue;
+        if (!unit.empty()) unit += '*';
+        unit += symbol;
+        if (power != 1) unit.append("^").append(std::to_string(power));
+    }
     return unit;
 }
 

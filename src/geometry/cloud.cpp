@@ -47,6 +47,10 @@ void sow(Relaxing& cloud, const Section& section, const std::vector<Leaf>& leave
         if (leaf.depth < (layers + 2.5) * leaf.spacing) {
             const LayerDepth d = layer_depth(section, leaf.centre, layers);
             if (d.across > 0) continue;
+            if (d.layers < layers) {  // but only if there is such a part
+                const LayerDepth deeper = layer_depth(section, leaf.centre - leaf.side * section.normal(leaf.centre), layers);
+                if (deeper.across > 0 || deeper.layers < layers) continue;
+            }
             beyond = std::clamp(0.5 + (d.layers - layers) * leaf.spacing / leaf.side, 0.0, 1.0);
         }
         share[k] = beyond * leaf.side * leaf.side / (leaf.spacing * leaf.spacing);
@@ -94,11 +98,14 @@ Cloud relaxed(const Region& region, const CloudOptions& options) {
     Relaxing state;
     std::vector<int> layer;
     for (const WallPoint& w : wall_layers(section, leaves, options.wall_layers, options.seed)) {
+        using Place = WallPoint::Place;
+        using Motion = Relaxing::Motion;
         state.points.push_back(w.p);
         state.spacing.push_back(section.spacing(w.p));
-        state.motion.push_back(w.free_along_wall ? Relaxing::Motion::along_wall : Relaxing::Motion::fixed);
+        state.motion.push_back(w.place == Place::inside ? Motion::free : w.place == Place::along_wall ? Motion::along_wall : Motion::fixed);
         state.walls.push_back({section.depth(w.p), section.normal(w.p)});
-        layer.push_back(w.layer);
+        if (w.place == Place::corner && w.layer == 0) state.corners.push_back(w.p);
+        layer.push_back(w.place == Place::inside ? -1 : w.layer);
     }
     sow(state, section, leaves, options.wall_layers, options.seed);
     if (state.points.empty()) throw InputError("no point fits: the region is empty, or thinner than half a spacing");
@@ -115,8 +122,6 @@ Cloud relaxed(const Region& region, const CloudOptions& options) {
     };
     sort();
     repel(state, section, options.relax_steps);
-    view_walls(state, section);
-    if (getenv("CS")) centre(state, section, atoi(getenv("CS")));
     view_walls(state, section);
     polish(state, section, options.polish_steps, options.smoothing);
     sort();
@@ -167,6 +172,40 @@ Cloud lattice(const Region& region, const CloudOptions& options) {
     return cloud;
 }
 
+/// Length of the line at y inside the region.
+double length_inside(const Region& region, double y) {
+    const auto inside = [&](double x) { return region.distance({x, y}) < 0; };
+    const double least_step = 1e-5 * (region.max.x - region.min.x);
+    // No wall is nearer than |distance|: along the line, step by that much, then locate each change of sign.
+    double x = region.min.x, sum = 0, entered = x;
+    bool in = inside(x);
+    while (x < region.max.x) {
+        const double next = std::min(region.max.x, x + std::max(least_step, std::abs(region.distance({x, y}))));
+        const bool next_in = inside(next);
+        if (next_in != in) {
+            double a = x, b = next;
+            for (int i = 0; i < 50; ++i) (inside(0.5 * (a + b)) == in ? a : b) = 0.5 * (a + b);
+            if (in) sum += 0.5 * (a + b) - entered;
+            entered = 0.5 * (a + b);
+            in = next_in;
+        }
+        x = next;
+    }
+    return in ? sum + region.max.x - entered : sum;
+}
+
+/// Adaptive Simpson's rule for the integral of that length over a < y < b: halves what differs from its halves by more than
+/// the tolerance, so it closes in on heights where a wall begins or ends and the length goes like a square root.
+double simpson(const Region& region, double a, double b, double at_a, double at_middle, double at_b, double tolerance, int depth) {
+    const double middle = 0.5 * (a + b), width = b - a;
+    const double q1 = length_inside(region, 0.5 * (a + middle)), q3 = length_inside(region, 0.5 * (middle + b));
+    const double coarse = width / 6 * (at_a + 4 * at_middle + at_b);
+    const double refined = width / 12 * (at_a + 4 * q1 + 2 * at_middle + 4 * q3 + at_b);
+    if (depth == 0 || std::abs(refined - coarse) < tolerance) return refined + (refined - coarse) / 15;
+    return simpson(region, a, middle, at_a, q1, at_middle, tolerance, depth - 1) +
+           simpson(region, middle, b, at_middle, q3, at_b, tolerance, depth - 1);
+}
+
 }  // namespace
 
 Cloud fill(const Region& region, const CloudOptions& options) {
@@ -177,35 +216,26 @@ Cloud fill(const Region& region, const CloudOptions& options) {
 }
 
 double area(const Region& region) {
-    constexpr std::size_t lines = 4096;
-    const double width = region.max.x - region.min.x, height = region.max.y - region.min.y;
-    const double least_step = width / 4096;
-    std::vector<double> length(lines);
+    const double height = region.max.y - region.min.y;
+    constexpr std::size_t panels = 512;
+    const auto y_of = [&](double k) { return region.min.y + height * k / static_cast<double>(panels); };
+
+    // Lines at the ends and the middle of each panel.
+    std::vector<double> length(2 * panels + 1);
 #pragma omp parallel for schedule(static)
-    for (std::size_t k = 0; k < lines; ++k) {
-        const double y = region.min.y + height * (static_cast<double>(k) + 0.5) / lines;
-        const auto inside = [&](double x) { return region.distance({x, y}) < 0; };
-        // No wall is nearer than |distance|: along the line, step by that much, then locate each change of sign.
-        double x = region.min.x, sum = 0, entered = x;
-        bool in = inside(x);
-        while (x < region.max.x) {
-            const double next = std::min(region.max.x, x + std::max(least_step, std::abs(region.distance({x, y}))));
-            const bool next_in = inside(next);
-            if (next_in != in) {
-                double a = x, b = next;
-                for (int i = 0; i < 50; ++i) (inside(0.5 * (a + b)) == in ? a : b) = 0.5 * (a + b);
-                if (in) sum += 0.5 * (a + b) - entered;
-                entered = 0.5 * (a + b);
-                in = next_in;
-            }
-            x = next;
-        }
-        if (in) sum += region.max.x - entered;
-        length[k] = sum;
+    for (std::size_t k = 0; k < length.size(); ++k) length[k] = length_inside(region, y_of(0.5 * static_cast<double>(k)));
+    double rough = 0;
+    for (const double l : length) rough += l * height / static_cast<double>(length.size());
+
+    std::vector<double> part(panels);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t k = 0; k < panels; ++k) {
+        const double a = y_of(static_cast<double>(k)), b = y_of(static_cast<double>(k + 1));
+        part[k] = simpson(region, a, b, length[2 * k], length[2 * k + 1], length[2 * k + 2], 1e-8 * rough, 40);
     }
     double sum = 0;
-    for (const double l : length) sum += l;
-    return sum * height / lines;
+    for (const double p : part) sum += p;
+    return sum;
 }
 
 }  // namespace brisance

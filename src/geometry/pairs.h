@@ -11,7 +11,7 @@
 namespace brisance {
 
 /// From so many points on a loop over them is shared between threads.
-inline constexpr std::size_t worth_threads = 4000;
+inline constexpr std::size_t worth_threads = 6000;
 
 /// Neighbours of each point, in an order that depends on the points alone.
 struct Pairs {

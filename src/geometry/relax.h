@@ -18,6 +18,7 @@ struct Relaxing {
     std::vector<double> spacing;
     std::vector<Motion> motion;
     std::vector<WallView> walls;      ///< of the points in layers; of free points a depth they are known to have, at least
+    std::vector<Vec2> corners;        ///< where walls meet
     double least_depth = 0;           ///< spacings below the wall that free points keep
 };
 
@@ -30,10 +31,13 @@ void repel(Relaxing& cloud, const Section& section, int steps);
 std::vector<Vec2> zeroth_order_error(const std::vector<Vec2>& points, const std::vector<double>& spacing,
                                      const std::vector<double>& area, const Pairs& pairs, double smoothing);
 
-/// Lowers that error: x_i -= beta D^2 E_i, with V the areas of the Voronoi cells.
+/// Lowers that error by descent on S = sum |E|^2 / 2, with V the areas of the Voronoi cells:
+///   dx_i = -rate D^4 dS/dx_i,   dS/dx_i = sum_j 2 V_j (dg/dxi)_ij (E_j - E_i)   (V and K ~ I taken as constant)
+/// Descent on S moves points no farther than it must. Steps along -E itself reach as low, but let pairs of points collapse,
+/// since the force of the spline fades at small distances. What is left of that is held up by a push between close pairs.
+/// Near a wall E has a part along the normal that is no error: it is how the surface passes on its traction. It is left out of S;
+/// near a corner, where every direction has such a part, E is left out altogether. Points in layers slide along their layer.
 void polish(Relaxing& cloud, const Section& section, int steps, double smoothing);
-
-void centre(Relaxing& cloud, const Section& section, int steps);
 
 /// Renews `walls` for all points.
 void view_walls(Relaxing& cloud, const Section& section);

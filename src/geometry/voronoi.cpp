@@ -106,7 +106,7 @@ std::vector<Cell> voronoi_cells(const Section& section, const std::vector<Vec2>&
                 const Vec2 d = points[j] - points[i];
                 near.push_back({dot(d, d), d});
             }
-            std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.r2 < b.r2; });
+            std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.r2 < b.r2; });
 
             const double far = farthest_wall * spacing[i];
             Polygon polygon;

@@ -45,10 +45,10 @@ public:
     double operator()(Vec2 p) const { return (*this)(layer_depth(section_, p, layers_)); }
 
     struct Foot {
-        Vec2 p, normal;
+        Vec2 traced, p, normal;  ///< on the traced line, and on the layer
         bool middle;
     };
-    /// Moves p along the normal onto the layer. Nothing where the traced line was a mere jump between thick and thin.
+    /// Moves a point along the normal onto the layer. Nothing where the traced line was a mere jump between thick and thin.
     std::optional<Foot> project(Vec2 p) const {
         for (int i = 0; i < 12; ++i) {
             const LayerDepth d = layer_depth(section_, p, layers_);
@@ -58,18 +58,11 @@ public:
             const Vec2 n = section_.normal(p);
             if (std::abs(d.layers - traced(d, *level)) < 1e-9) {
                 const bool middle = in_the_middle(d, l_);
-                return Foot{middle ? p - depth * (*level / d.layers - 1) * n : p, n, middle};
+                return Foot{p, middle ? p - depth * (*level / d.layers - 1) * n : p, n, middle};
             }
             p = p - depth * (traced(d, *level) / d.layers - 1) * n;
         }
         return std::nullopt;
-    }
-
-    /// The layers that miss to p lying on this one.
-    double miss(Vec2 p) const {
-        const LayerDepth d = layer_depth(section_, p, layers_);
-        const auto level = level_of(d, l_, layers_);
-        return level ? std::abs(d.layers - *level) : 1;
     }
 
 private:
@@ -131,14 +124,16 @@ public:
     }
 
 private:
-    static std::uint64_t key(std::int64_t i, std::int64_t j) { return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffULL); }
+    static std::uint64_t key(std::int64_t i, std::int64_t j) {
+        return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffULL);
+    }
     double cell_;
     std::unordered_map<std::uint64_t, std::vector<Vec2>> cells_;
 };
 
 /// A layer's line after projection: vertices on the layer, with the corners of the wall put in.
 struct Track {
-    std::vector<Vec2> p;
+    std::vector<Vec2> traced, p;  ///< as in Layer::Foot
     std::vector<Vec2> normal;
     std::vector<bool> corner;
     bool closed = false, middle = false;
@@ -148,7 +143,7 @@ struct Track {
 std::vector<Track> tracks(const Layer& layer, const Polyline& line) {
     std::vector<Track> result;
     std::vector<std::optional<Layer::Foot>> feet(line.vertices.size());
-#pragma omp parallel for
+#pragma omp parallel for if (feet.size() > 500)
     for (std::size_t i = 0; i < feet.size(); ++i) feet[i] = layer.project(line.vertices[i]);
 
     const std::size_t n = feet.size();
@@ -170,6 +165,7 @@ std::vector<Track> tracks(const Layer& layer, const Polyline& line) {
         if (!foot || (!track.p.empty() && foot->middle != track.middle)) finish();
         if (!foot) continue;
         track.middle = foot->middle;
+        track.traced.push_back(foot->traced);
         track.p.push_back(foot->p);
         track.normal.push_back(foot->normal);
         track.corner.push_back(false);
@@ -179,15 +175,16 @@ std::vector<Track> tracks(const Layer& layer, const Polyline& line) {
     return result;
 }
 
-/// Where the tangents of two neighbouring vertices meet at an angle and the meeting point lies on the layer too, the wall has
-/// a corner: it becomes a vertex. (On a round wall the meeting point lies outside the layer.)
-void find_corners(Track& track, const Layer& layer, double cell) {
+/// Where the tangents of two neighbouring vertices meet at an angle and the meeting point lies just as deep, the wall has a
+/// corner: it becomes a vertex. (On a round wall the meeting point lies less or more deep, by turn^2 / 8 radii.)
+void find_corners(Track& track, const Section& section, double cell) {
     constexpr double least_turn = 0.5;  // rad
     Track out;
     out.closed = track.closed;
     out.middle = track.middle;
     const std::size_t n = track.p.size();
     for (std::size_t i = 0; i < n; ++i) {
+        out.traced.push_back(track.p[i]);
         out.p.push_back(track.p[i]);
         out.normal.push_back(track.normal[i]);
         out.corner.push_back(false);
@@ -199,7 +196,10 @@ void find_corners(Track& track, const Layer& layer, double cell) {
         // q with (q - p_i) . a = 0 and (q - p_j) . b = 0
         const double ca = dot(track.p[i], a), cb = dot(track.p[j], b);
         const Vec2 q{(ca * b.y - cb * a.y) / sine, (a.x * cb - b.x * ca) / sine};
-        if (norm(q - track.p[i]) > 2 * cell || norm(q - track.p[j]) > 2 * cell || layer.miss(q) > 0.01) continue;
+        if (norm(q - track.p[i]) > 2 * cell || norm(q - track.p[j]) > 2 * cell) continue;
+        const double expected = std::min(section.depth(track.p[i]), section.depth(track.p[j]));
+        if (std::abs(section.depth(q) - expected) > 0.01 * section.spacing(q)) continue;
+        out.traced.push_back(q);
         out.p.push_back(q);
         out.normal.push_back(a);
         out.corner.push_back(true);
@@ -208,23 +208,27 @@ void find_corners(Track& track, const Layer& layer, double cell) {
 }
 
 /// Points at equal counts of ds / spacing along the track; a closed one without corners starts at a random phase.
-void resample(const Section& section, const Layer& layer, const Track& track, int l, double phase, Accepted& accepted,
-              std::vector<WallPoint>& points) {
-    const auto place = [&](Vec2 p, bool free) {
-        if (free) {
-            const auto foot = layer.project(p);
-            if (foot && norm(foot->p - p) < 0.2 * section.spacing(p)) p = foot->p;
-        }
-        if (section.distance(p) < 0 && accepted.add(p, nearest_pair * section.spacing(p))) points.push_back({p, l, free});
+/// `usual`: the place of points that are not in corners.
+void resample(const Section& section, const Layer& layer, const Track& track, int l, WallPoint::Place usual, double phase,
+              Accepted& accepted, std::vector<WallPoint>& points) {
+    const auto accept = [&](Vec2 p, WallPoint::Place place) {
+        if (section.distance(p) < 0 && accepted.add(p, nearest_pair * section.spacing(p))) points.push_back({p, l, place});
+    };
+    const std::size_t n = track.p.size();
+    /// The point between the vertices i and i + 1: interpolated on the traced line, then moved onto the layer.
+    const auto place = [&](std::size_t i, double t) {
+        const std::size_t next = (i + 1) % n;
+        const Vec2 p = (1 - t) * track.p[i] + t * track.p[next];
+        const auto foot = layer.project((1 - t) * track.traced[i] + t * track.traced[next]);
+        accept(foot && norm(foot->p - p) < 0.2 * section.spacing(p) ? foot->p : p, usual);
     };
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < track.p.size(); ++i) {
         if (track.corner[i]) corners.push_back(i);
     }
-    for (const std::size_t i : corners) place(track.p[i], false);
+    for (const std::size_t i : corners) accept(track.p[i], WallPoint::Place::corner);
 
     // Stretches between corners, or the whole line.
-    const std::size_t n = track.p.size();
     struct Stretch {
         std::size_t from, steps;
         bool from_corner, to_corner;
@@ -265,14 +269,8 @@ void resample(const Section& section, const Layer& layer, const Track& track, in
         for (double i = 0; i < m; ++i) {
             const double at = (i + first) * interval;
             while (k + 2 < count.size() && count[k + 1] <= at) ++k;
-            if (s.steps == 0) {
-                place(track.p[s.from], !track.middle);
-                continue;
-            }
-            const double length = count[k + 1] - count[k];
-            const double t = length > 0 ? std::clamp((at - count[k]) / length, 0.0, 1.0) : 0.0;
-            const Vec2 a = track.p[(s.from + k) % n], b = track.p[(s.from + k + 1) % n];
-            place(a + t * (b - a), !track.middle);
+            const double step = s.steps > 0 ? count[k + 1] - count[k] : 0;
+            place((s.from + k) % n, step > 0 ? std::clamp((at - count[k]) / step, 0.0, 1.0) : 0.0);
         }
     }
 }
@@ -296,7 +294,8 @@ LayerDepth layer_depth(const Section& section, Vec2 p, int wall_layers) {
     }
     if (t >= farthest) return {near, 0};
     const double total = near + count_along(section, p, p - t * n);
-    const double across = std::round(total);
+    // Round, and let no round-off decide where people's numbers give just half a layer.
+    const double across = std::floor(total + 0.5 + 1e-6);
     if (across > most_across(wall_layers)) return {near, 0};
     if (across < 1) return {-1, 0};  // thinner than half a spacing: no layer fits
     return {near * across / total, static_cast<int>(across)};
@@ -306,7 +305,7 @@ std::vector<WallPoint> wall_layers(const Section& section, const std::vector<Lea
     const CellSet set = cells_near_layers(section, leaves, layers);
     std::vector<LayerDepth> depth(set.cells.size());
     std::vector<double> spacing(set.cells.size());
-#pragma omp parallel for
+#pragma omp parallel for schedule(static)
     for (std::size_t c = 0; c < set.cells.size(); ++c) {
         const Vec2 centre = set.origin + set.side * Vec2{set.cells[c].i + 0.5, set.cells[c].j + 0.5};
         depth[c] = layer_depth(section, centre, layers);
@@ -328,8 +327,11 @@ std::vector<WallPoint> wall_layers(const Section& section, const std::vector<Lea
         }
         for (const Polyline& line : contour(near, [&](Vec2 p) { return layer(p); })) {
             for (Track& track : tracks(layer, line)) {
-                if (!track.middle) find_corners(track, layer, set.side);
-                resample(section, layer, track, l, random_uniform(seed, 1, stream++), accepted, points);
+                if (!track.middle) find_corners(track, section, set.side);
+                const WallPoint::Place usual = !track.closed && l >= layers ? WallPoint::Place::inside
+                                               : track.middle               ? WallPoint::Place::middle
+                                                                            : WallPoint::Place::along_wall;
+                resample(section, layer, track, l, usual, random_uniform(seed, 1, stream++), accepted, points);
             }
         }
     }

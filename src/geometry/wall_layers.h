@@ -22,9 +22,15 @@ struct LayerDepth {
 LayerDepth layer_depth(const Section& section, Vec2 p, int wall_layers);
 
 struct WallPoint {
+    enum class Place : unsigned char {
+        along_wall,  ///< may slide along its layer
+        corner,      ///< where two walls meet
+        middle,      ///< in the middle layer of a thin part
+        inside       ///< in a layer beyond `wall_layers` that ends where a thin part becomes thick
+    };
     Vec2 p;
     int layer = 0;
-    bool free_along_wall = true;  ///< not in a corner, nor in the middle layer of a thin part
+    Place place = Place::along_wall;
 };
 
 /// The points of all layers: layer l runs at the depth of l + 1/2 layers.

@@ -195,8 +195,9 @@ void check_parts(const Node& root) {
     if (!parts || !parts->is_list() || !tables || !tables->is_table()) return;
     if (parts->children.empty()) fail(*parts, "no parts: at least one has to take part; there are: " + joined(tables->names()));
     const std::vector<std::string> listed = parts->texts(), reserved = root_keys();
+    std::set<std::string> seen;
     for (const Node& name : parts->children) {
-        if (std::count(listed.begin(), listed.end(), name.text) > 1) fail(name, "the part '" + name.text + "' is listed twice");
+        if (!seen.insert(name.text).second) fail(name, "the part '" + name.text + "' is listed twice");
         if (!tables->has(name.text)) fail(name, "no part '" + name.text + "'" + did_you_mean(name.text, tables->names()) + "; there are: " + joined(tables->names()));
     }
     for (const Node& part : tables->children) {

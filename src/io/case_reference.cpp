@@ -65,14 +65,13 @@ Key number(const char* name, const char* fallback, const char* meaning, Range ra
 Key shape(const char* name, const char* meaning) { return {.name = name, .type = Type::table, .meaning = meaning, .group = "shape"}; }
 
 Schema make_schema() {
-    using namespace dimension;
     const Key direction{.name = "normal", .type = Type::number, .meaning = "a vector along the normal; its length does not matter", .count = Count::three};
     const Key part_name{.name = "part", .type = Type::text, .meaning = "name of a part"};
     Schema schema;
     schema.groups = {
         {.name = "case", .heading = "the case", .meaning = "The root of the file.", .keys = root_keys()},
         {.name = "run", .heading = "[run]", .meaning = "Duration and arithmetic.", .keys = {
-            quantity("until", time, "end of the run", positive),
+            quantity("until", dimension::time, "end of the run", positive),
             {.name = "seed", .type = Type::integer, .meaning = "seed from which those of the parts follow", .fallback = "1", .range = not_negative},
             {.name = "precision", .type = Type::choice, .meaning = "floating-point numbers of the fields", .fallback = "\"double\"", .choices = {"double", "single"}},
         }},
@@ -80,17 +79,17 @@ Schema make_schema() {
             {.name = "material", .type = Type::text, .meaning = "a [material.NAME] of this case, a name in the library, or a file"},
             shape("shape", "the space that it fills"),
             {.name = "formulation", .type = Type::choice, .meaning = "total-Lagrangian for rock and metal, updated-Lagrangian for what flows", .choices = {"total_lagrangian", "updated_lagrangian"}},
-            quantity("spacing", length, "distance between particles in the x-y section, at its finest", positive),
-            or_else(quantity("spacing_far", length, "the same at its coarsest", positive), "as `spacing`: no grading"),
-            or_else(quantity("grading_radius", length, "distance from the z axis at which the spacing begins to grow", not_negative), "to be given with a coarser `spacing_far`"),
+            quantity("spacing", dimension::length, "distance between particles in the x-y section, at its finest", positive),
+            or_else(quantity("spacing_far", dimension::length, "the same at its coarsest", positive), "as `spacing`: no grading"),
+            or_else(quantity("grading_radius", dimension::length, "distance from the z axis at which the spacing begins to grow", not_negative), "to be given with a coarser `spacing_far`"),
             or_else({.name = "grading_growth", .type = Type::number, .meaning = "growth of the spacing, mm per mm of distance", .range = positive}, "to be given with a coarser `spacing_far`"),
-            or_else(quantity("spacing_z", length, "distance between particles along z", positive), "as `spacing`"),
+            or_else(quantity("spacing_z", dimension::length, "distance between particles along z", positive), "as `spacing`"),
             number("smoothing", "1.3", "smoothing length over spacing", {0.8, 3}),
             {.name = "arrangement", .type = Type::choice, .meaning = "relaxed cloud without preferred direction, or square lattice", .fallback = "\"relaxed\"", .choices = {"relaxed", "lattice"}},
             {.name = "angle", .type = Type::angle, .meaning = "rotation of the arrangement about z", .fallback = "\"0 deg\""},
             or_else({.name = "seed", .type = Type::integer, .meaning = "seed of the arrangement", .range = at_least_one}, "follows from run.seed and the part's name"),
             {.name = "z_phase", .type = Type::flag, .meaning = "each column of particles has its own phase along z, so that no horizontal lattice plane remains", .fallback = "true"},
-            {.name = "velocity", .type = Type::quantity, .meaning = "initial velocity", .fallback = "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]", .dimension = velocity, .count = Count::three},
+            {.name = "velocity", .type = Type::quantity, .meaning = "initial velocity", .fallback = "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]", .dimension = dimension::velocity, .count = Count::three},
             {.name = "viscosity", .type = Type::table, .meaning = "artificial viscosity", .fallback = "{pairwise = {alpha = 1.0, beta = 2.0}}", .group = "viscosity"},
             or_else(number("zero_energy", "", "stiffness of the zero-energy control over the longitudinal modulus; total_lagrangian only", not_negative), "0.05 (total_lagrangian)"),
             or_else({.name = "artificial_stress", .type = Type::table, .meaning = "artificial stress against the tensile instability; updated_lagrangian only", .group = "artificial_stress", .or_flag = true}, "false"),
@@ -108,14 +107,14 @@ Schema make_schema() {
             {.name = "difference", .type = Type::tables, .meaning = "the first shape of a list without the others", .group = "shape"},
         }, .choice = true},
         {.name = "cylinder", .heading = "shape.cylinder", .meaning = "", .keys = {
-            place("from", "centre of one end"), place("to", "centre of the other end"), quantity("radius", length, "radius", positive)}},
+            place("from", "centre of one end"), place("to", "centre of the other end"), quantity("radius", dimension::length, "radius", positive)}},
         {.name = "annulus", .heading = "shape.annulus", .meaning = "", .keys = {
             place("from", "centre of one end"), place("to", "centre of the other end"),
-            quantity("inner_radius", length, "radius of the hole", positive), quantity("outer_radius", length, "outer radius, above the inner one", positive)}},
+            quantity("inner_radius", dimension::length, "radius of the hole", positive), quantity("outer_radius", dimension::length, "outer radius, above the inner one", positive)}},
         {.name = "box", .heading = "shape.box", .meaning = "", .keys = {
             place("min", "corner with the smallest coordinates"), place("max", "corner with the largest coordinates")}},
         {.name = "sphere", .heading = "shape.sphere", .meaning = "", .keys = {
-            place("centre", "centre"), quantity("radius", length, "radius", positive)}},
+            place("centre", "centre"), quantity("radius", dimension::length, "radius", positive)}},
         {.name = "half_space", .heading = "shape.half_space", .meaning = "", .keys = {
             place("point", "a point of the plane"), direction}},
         {.name = "viscosity", .heading = "[part.NAME.viscosity]", .meaning = "Exactly one of these.", .keys = {
@@ -130,12 +129,12 @@ Schema make_schema() {
             number("epsilon", "0.5", "strength of the repulsion", not_negative), number("n", "4.0", "power of the kernel ratio", positive)}},
         {.name = "failure", .heading = "[part.NAME.failure]", .meaning = "", .keys = {
             {.name = "mode", .type = Type::choice, .meaning = "what a failed particle still carries: the law's fractured strength, pressure only, nothing", .fallback = "\"jh2\"", .choices = {"jh2", "no_tension_no_shear", "all_zero"}},
-            or_else(quantity("tensile_strength", pressure, "largest principal stress at which a particle fails", positive), "off"),
-            or_else(quantity("shear_strength", pressure, "largest shear stress at which a particle fails", positive), "off"),
+            or_else(quantity("tensile_strength", dimension::pressure, "largest principal stress at which a particle fails", positive), "off"),
+            or_else(quantity("shear_strength", dimension::pressure, "largest shear stress at which a particle fails", positive), "off"),
         }},
         {.name = "heterogeneity", .heading = "[part.NAME.heterogeneity]", .meaning = "", .keys = {
             {.name = "weibull_modulus", .type = Type::number, .meaning = "Weibull modulus of the strength", .range = positive},
-            quantity("correlation_length", length, "distance over which the strength is alike", positive),
+            quantity("correlation_length", dimension::length, "distance over which the strength is alike", positive),
             {.name = "seed", .type = Type::integer, .meaning = "seed of the field; it belongs to the rock, not to the arrangement", .fallback = "1", .range = not_negative},
         }},
         {.name = "material", .heading = "[material.NAME]", .meaning = "A variant of `base`, or without a base a whole material as in a material file. Another `law` drops the parameters of the base's law.", .keys = {
@@ -149,8 +148,8 @@ Schema make_schema() {
             {.name = "burn", .type = Type::material, .meaning = "burn law and its parameters", .absent = "that of the base"},
         }},
         {.name = "slice", .heading = "[slice]", .meaning = "Plane strain. The z of gauges and sections gives way to that of the slice.", .keys = {
-            quantity("z", length, "centre of the slab"),
-            {.name = "layers", .type = Type::integer, .meaning = "thickness in layers of spacing_z of `part`", .fallback = "8", .range = at_least_one},
+            quantity("z", dimension::length, "centre of the slab"),
+            {.name = "layers", .type = Type::integer, .meaning = "thickness in layers of spacing_z of `part`", .fallback = "8", .range = config::count},
             {.name = "part", .type = Type::text, .meaning = "the part whose spacing_z counts"},
         }},
         {.name = "detonation", .heading = "[[detonation]]", .meaning = "", .keys = {
@@ -159,7 +158,7 @@ Schema make_schema() {
             or_else(place("at", "the point"), "to be given with kind = \"point\""),
             or_else(place("from", "one end of the line"), "to be given with kind = \"line\""),
             or_else(place("to", "the other end"), "to be given with kind = \"line\""),
-            or_default(quantity("time", time, "when it is lit", not_negative), "\"0 us\""),
+            or_default(quantity("time", dimension::time, "when it is lit", not_negative), "\"0 us\""),
         }},
         {.name = "boundary", .heading = "[[boundary]]", .meaning = "", .keys = {
             {.name = "kind", .type = Type::choice, .meaning = "particles within one spacing of a plane keep components of their displacement; a plane that nothing passes; a pressure on walls", .choices = {"fix", "platen", "pressure"}},
@@ -168,8 +167,8 @@ Schema make_schema() {
             or_else(direction, "to be given with fix and platen; it points out of the material"),
             {.name = "fix", .type = Type::choice, .meaning = "components of the displacement that stay zero", .absent = "to be given with fix", .count = Count::list, .choices = {"x", "y", "z"}},
             or_else(shape("on", "walls of the part inside this shape are loaded"), "to be given with pressure"),
-            {.name = "times", .type = Type::quantity, .meaning = "times of the pressure history, ascending; linear between", .absent = "to be given with pressure", .dimension = time, .range = not_negative, .count = Count::list},
-            {.name = "values", .type = Type::quantity, .meaning = "pressures at these times", .absent = "to be given with pressure", .dimension = pressure, .count = Count::list},
+            {.name = "times", .type = Type::quantity, .meaning = "times of the pressure history, ascending; linear between", .absent = "to be given with pressure", .dimension = dimension::time, .range = not_negative, .count = Count::list},
+            {.name = "values", .type = Type::quantity, .meaning = "pressures at these times", .absent = "to be given with pressure", .dimension = dimension::pressure, .count = Count::list},
         }},
         {.name = "contact", .heading = "[contact]", .meaning = "", .keys = {
             {.name = "pairs", .type = Type::names, .meaning = "pairs of parts that may touch", .fallback = "\"all\""},
@@ -185,26 +184,26 @@ Schema make_schema() {
         {.name = "analysis", .heading = "[analysis]", .meaning = "", .keys = {
             {.name = "part", .type = Type::text, .meaning = "the part whose cracks are counted"},
             number("damage_threshold", "0.8", "a particle with more damage belongs to a crack", fraction),
-            {.name = "zones", .type = Type::quantity, .meaning = "radii that bound the zones of the crack density, ascending", .dimension = length, .range = not_negative, .count = Count::list},
-            {.name = "sectors", .type = Type::integer, .meaning = "sectors of the polar distribution", .fallback = "72", .range = at_least_one},
-            {.name = "axis", .type = Type::quantity, .meaning = "x and y of the borehole axis", .fallback = "[\"0 mm\", \"0 mm\"]", .dimension = length, .count = Count::two},
+            {.name = "zones", .type = Type::quantity, .meaning = "radii that bound the zones of the crack density, ascending", .dimension = dimension::length, .range = not_negative, .count = Count::list},
+            {.name = "sectors", .type = Type::integer, .meaning = "sectors of the polar distribution", .fallback = "72", .range = config::count},
+            {.name = "axis", .type = Type::quantity, .meaning = "x and y of the borehole axis", .fallback = "[\"0 mm\", \"0 mm\"]", .dimension = dimension::length, .count = Count::two},
             {.name = "sections", .type = Type::tables, .meaning = "sections normal to the axis", .fallback = "[]", .group = "section"},
-            quantity("tensile_strength", pressure, "principal stress that labels a failure as tensile", positive),
-            quantity("shear_strength", pressure, "shear stress that labels a failure as shear", positive),
+            quantity("tensile_strength", dimension::pressure, "principal stress that labels a failure as tensile", positive),
+            quantity("shear_strength", dimension::pressure, "shear stress that labels a failure as shear", positive),
         }},
         {.name = "section", .heading = "analysis.sections", .meaning = "", .keys = {
             {.name = "name", .type = Type::text, .meaning = "name in the output"},
-            quantity("z", length, "height, inside the analysed part"),
+            quantity("z", dimension::length, "height, inside the analysed part"),
         }},
         {.name = "output", .heading = "[output]", .meaning = "", .keys = {
-            {.name = "snapshots", .type = Type::quantity, .meaning = "times of snapshots: an interval, or a list; times after `until` are left out", .fallback = "[]", .dimension = time, .range = not_negative, .count = Count::one_or_list},
-            or_else(quantity("history", time, "interval between rows of gauges, audit and analysis", positive), "until / 1000"),
+            {.name = "snapshots", .type = Type::quantity, .meaning = "times of snapshots: an interval, or a list; times after `until` are left out", .fallback = "[]", .dimension = dimension::time, .range = not_negative, .count = Count::one_or_list},
+            or_else(quantity("history", dimension::time, "interval between rows of gauges, audit and analysis", positive), "until / 1000"),
         }},
         {.name = "step", .heading = "[step]", .meaning = "", .keys = {
             number("courant_solid", "0.6", "fraction of the stable step of total-Lagrangian parts", {0, 1, true}),
             number("courant_fluid", "0.3", "fraction of the stable step of updated-Lagrangian parts", {0, 1, true}),
             number("growth", "1.02", "largest ratio of successive steps", at_least_one),
-            or_default(quantity("minimum", time, "the run stops when the step falls below", not_negative), "\"0 us\""),
+            or_default(quantity("minimum", dimension::time, "the run stops when the step falls below", not_negative), "\"0 us\""),
             number("energy_residual_limit", "0.05", "the run stops when the relative error of energy rises above", positive),
         }},
         {.name = "preset", .heading = "[preset.NAME]", .meaning = "The same keys as the case, written over it. Tables are merged, everything else is replaced.", .keys = preset_keys()},

@@ -100,6 +100,7 @@ inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true
 inline constexpr Range not_negative{0, std::numeric_limits<double>::infinity(), false};
 inline constexpr Range at_least_one{1, std::numeric_limits<double>::infinity(), false};
 inline constexpr Range fraction{0, 1, false};
+inline constexpr Range count{1, 1e6, false};
 
 /// How many values: one, a fixed number of them in a list, any number in a list, or either one or a list.
 enum class Count { one, two, three, list, one_or_list };

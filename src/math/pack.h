@@ -65,7 +65,7 @@ template <class V> BRISANCE_HD inline V vsqrt(V x) {
     if constexpr (lanes_of<V> == 1) {
         return std::sqrt(x);
     } else {
-        V r;
+        V r{};
         for (int l = 0; l < lanes_of<V>; ++l) r[l] = std::sqrt(x[l]);
         return r;
     }

@@ -19,6 +19,7 @@ struct Column {
     double spacing = 0;    ///< in the section, mm
     int layers = 0;
     std::int64_t start = 0;  ///< slot of layer 0; a multiple of the tile width
+    double wall_length = 0;  ///< mm of wall that a column of the first layer stands for; 0 elsewhere
     double wall_distance = 0;              ///< to the nearest wall of the part, mm
     double wall_normal_x = 0, wall_normal_y = 0;
     int wall_layer = -1;                   ///< 0: first layer at a wall; -1: inside

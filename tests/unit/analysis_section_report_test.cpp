@@ -106,6 +106,7 @@ SectionPoints blasted() {
 
 SectionOptions options() {
     SectionOptions o;
+    o.zone_edges = {0, 24, 48, 72};
     o.specimen = {3.225, 72};
     return o;
 }

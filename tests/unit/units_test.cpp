@@ -130,7 +130,7 @@ TEST(Units, AQuantityKeepsItsDimensionAndUnit) {
 
 TEST(Units, EveryNamedDimensionReadsItsOwnExampleAndUnit) {
     using namespace dimension;
-    for (const Dimension d : {none, length, area, volume, time, rate, velocity, mass, density, pressure, energy, specific_energy,
+    for (const Dimension d : {none, length, area, volume, dimension::time, rate, velocity, mass, density, pressure, energy, specific_energy,
                               specific_heat, energy_per_area, temperature, Dimension{1, 1, -2, 0}, Dimension{1, 2, -3, 0}}) {
         EXPECT_EQ(read_quantity(dimension_example(d)).dimension, d) << dimension_name(d);
         if (d == none) continue;

@@ -277,13 +277,19 @@ private:
                         dotr(ct.zx, ct.zy, ct.zz, ct.zx, ct.zy, ct.zz) * j2, dotr(ct.xx, ct.xy, ct.xz, ct.yx, ct.yy, ct.yz) * j2,
                         dotr(ct.xx, ct.xy, ct.xz, ct.zx, ct.zy, ct.zz) * j2, dotr(ct.yx, ct.yy, ct.yz, ct.zx, ct.zy, ct.zz) * j2};
         const V stretch2 = vsqrt(R(1.0 / 3.0) * ddot(B, B));  // ~ 1/lambda^4 norm; its root is 1/lambda^2
-        const V rate = own * sound * vsqrt(vsqrt(stretch2)) * (R(1) / static_cast<R>(std::min(column.spacing, b.layout.dz)));
-        report.rate = static_cast<double>(hmax(rate));
+        const R spacing = static_cast<R>(std::min(column.spacing, b.layout.dz));
+        const V own_rate = sound * vsqrt(vsqrt(stretch2)) * (R(1) / spacing);
+        // rock that has failed and is not pressed bears nothing and is no spring
+        const auto bears = (p.integrity > R(0)) | (total > R(0));
+        const V rate = bears ? own_rate : zero;
+        const R at_rest = static_cast<R>(b.material.sound_speed()) / spacing;
 
-        // the guard: what has no meaning as a deformation any more
+        // The guard: what has no meaning as a deformation any more, and failed particles so distorted that they alone would hold the step.
         const V size = ddot(f_new, f_new);
-        const auto ok = (jacobian > R(0.2)) & (jacobian < R(8)) & (size < R(40)) & (vabs(energy) < R(1e6));
+        const auto ok = (jacobian > R(0.4)) & (jacobian < R(8)) & (size < R(40)) & (vabs(energy) < R(1e6)) &
+                        ((p.integrity > R(0.5)) | (rate < R(3) * at_rest));
         const V bad = alive ? (ok ? zero : one) : zero;
+        report.rate = static_cast<double>(hmax(own * (one - bad) * rate));
         report.torn = hmax(bad * owned(i)) > R(0);
         if (report.torn)
             for (int l = 0; l < lanes<R>; ++l)

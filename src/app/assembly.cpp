@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/assembly.h"
+
+#include "base/error.h"
+#include "base/random.h"
+#include "geometry/placement.h"
+#include "geometry/strength_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+namespace {
+
+std::uint64_t arrangement_seed(const Case& c, const PartData& p) {
+    if (p.seed != 0) return p.seed;
+    std::uint64_t h = c.seed;
+    for (char ch : p.name) h = random_bits(h, 3, static_cast<std::uint64_t>(static_cast<unsigned char>(ch)));
+    return h;
+}
+
+const PartData& part_named(const Case& c, const std::string& name) {
+    for (const PartData& p : c.parts)
+        if (p.name == name) return p;
+    throw InputError("no part is named " + name);
+}
+
+std::vector<ShapePtr> later_shapes(const Case& c, const PartData& part) {
+    std::vector<ShapePtr> later;
+    bool after = false;
+    for (const PartData& p : c.parts) {
+        if (after) later.push_back(p.shape);
+        if (&p == &part) after = true;
+    }
+    return later;
+}
+
+PlacementOptions placement_options(const Case& c, const PartData& p, const Extent& extent) {
+    PlacementOptions o;
+    o.name = p.name;
+    o.arrangement = p.arrangement;
+    o.angle = p.angle;
+    o.seed = arrangement_seed(c, p);
+    o.spacing = p.spacing;
+    o.spacing_far = p.spacing_far;
+    o.grading_radius = p.grading_radius;
+    o.grading_growth = p.grading_growth;
+    o.spacing_z = p.spacing_z;
+    o.z_phase = p.z_phase;
+    o.smoothing = p.smoothing;
+    o.axis_x = c.analysis.axis.x;
+    o.axis_y = c.analysis.axis.y;
+    o.slice = extent.periodic;
+    o.z_low = extent.low;
+    o.z_high = extent.high;
+    return o;
+}
+
+template <class R>
+SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& placement, const Extent& extent) {
+    SolidPart<R> s;
+    SolidBody<R>& b = s.body;
+    b.name = p.name;
+    b.material = make_material(p.material);
+    if (!b.material.strength)
+        throw InputError(fmt::format("{}: part {} is total_lagrangian, but {} has no strength law; use updated_lagrangian for fluids", p.where, p.name,
+                                     p.material.name));
+    b.options.smoothing = p.smoothing;
+    b.options.zero_energy = p.zero_energy;
+    b.options.pairwise = p.viscosity.pairwise;
+    b.options.alpha = p.viscosity.alpha;
+    b.options.beta = p.viscosity.beta;
+    b.options.linear = p.viscosity.linear;
+    b.options.quadratic = p.viscosity.quadratic;
+    FailureRule& f = b.options.failure;
+    f.mode = static_cast<int>(p.failure.mode);
+    f.tensile = p.failure.tensile_strength.value_or(0);
+    f.shear = p.failure.shear_strength.value_or(0);
+    f.label_tensile = c.analysis.tensile_strength;
+    f.label_shear = c.analysis.shear_strength;
+    f.threshold = c.analysis.damage_threshold;
+    b.axis_x = c.analysis.axis.x;
+    b.axis_y = c.analysis.axis.y;
+
+    b.layout.columns = placement.columns;
+    b.layout.dz = placement.dz;
+    b.layout.periodic = extent.periodic;
+    b.layout.width = lanes<R>;
+    b.layout.pad = largest_offset(p.smoothing);
+    const std::vector<ShapePtr> later = later_shapes(c, p);
+    lay_out(b.layout, [&](const Column& column, int k) {
+        if (extent.periodic) return true;
+        const Point at{column.x, column.y, placement.z_low + (k + 0.5) * placement.dz};
+        if (!p.shape->contains(at)) return false;
+        return std::none_of(later.begin(), later.end(), [&](const ShapePtr& l) { return l->contains(at); });
+    });
+    allocate(b);
+    fill_images(b.layout, {b.live.data(), b.stiffness.data()});
+    s.pairs = find_column_pairs<R>(b.layout, p.smoothing);
+
+    const StrengthField field(p.heterogeneity.weibull_modulus, p.heterogeneity.correlation_length, p.heterogeneity.seed,
+                              extent.periodic ? extent.high - extent.low : 0);
+    exec::for_each(static_cast<std::int64_t>(b.layout.columns.size()), [&](std::int64_t n) {
+        const Column& column = b.layout.columns[static_cast<std::size_t>(n)];
+        for (int k = 0; k < column.layers; ++k) {
+            const auto i = static_cast<std::size_t>(column.start + k);
+            if (p.heterogeneity.weibull_modulus > 0) b.scale[i] = static_cast<R>(field({column.x, column.y, column.z0 + k * b.layout.dz}));
+            b.v[0][i] = static_cast<R>(p.velocity.x);
+            b.v[1][i] = static_cast<R>(p.velocity.y);
+            b.v[2][i] = static_cast<R>(p.velocity.z);
+        }
+    });
+    s.surface = make_surface(b);
+    return s;
+}
+
+FluidPart make_fluid(const Case& c, const PartData& p, const Placement& placement, const Extent& extent) {
+    FluidPart f;
+    FluidBody& b = f.body;
+    b.name = p.name;
+    b.material = make_material(p.material);
+    b.options.smoothing = p.smoothing;
+    b.options.alpha = p.viscosity.alpha;
+    b.options.beta = p.viscosity.beta;
+    b.options.artificial_stress = p.artificial_stress;
+    b.options.epsilon = p.artificial_stress_epsilon;
+    b.options.n = p.artificial_stress_n;
+    b.spacing = std::cbrt(p.spacing * p.spacing * placement.dz);
+    b.z_low = extent.low;
+    b.period = extent.periodic ? extent.high - extent.low : 0;
+
+    const std::vector<ShapePtr> later = later_shapes(c, p);
+    std::vector<Point> at;
+    std::vector<double> mass;
+    for (const Column& column : placement.columns)
+        for (int k = 0; k < column.layers; ++k) {
+            const Point place{column.x, column.y, placement.z_low + (k + 0.5) * placement.dz};
+            if (!extent.periodic && (!p.shape->contains(place) || std::any_of(later.begin(), later.end(), [&](const ShapePtr& l) { return l->contains(place); })))
+                continue;
+            at.push_back({column.x, column.y, column.z0 + k * placement.dz});
+            mass.push_back(b.material.density * column.area * placement.dz);
+        }
+    resize(b, at.size());
+    const double e0 = b.material.eos->initial_energy() / b.material.density;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        b.x[0][i] = b.reference[0][i] = at[i].x;
+        b.x[1][i] = b.reference[1][i] = at[i].y;
+        b.x[2][i] = b.reference[2][i] = at[i].z;
+        b.mass[i] = mass[i];
+        b.rho[i] = b.material.density;
+        b.e[i] = e0;
+        b.v[0][i] = p.velocity.x;
+        b.v[1][i] = p.velocity.y;
+        b.v[2][i] = p.velocity.z;
+    }
+    if (b.period > 0)
+        for (double& z : b.x[2]) z -= b.period * std::floor((z - b.z_low) / b.period);
+    if (b.material.burn) {
+        std::vector<Detonator> detonators;
+        for (const DetonationData& d : c.detonations) {
+            if (d.part != p.name) continue;
+            Detonator t;
+            t.kind = static_cast<int>(d.kind);
+            t.time = d.time;
+            t.from[0] = d.from.x;
+            t.from[1] = d.from.y;
+            t.from[2] = d.from.z;
+            t.to[0] = d.to.x;
+            t.to[1] = d.to.y;
+            t.to[2] = d.to.z;
+            detonators.push_back(t);
+        }
+        light(b, detonators);
+    }
+    return f;
+}
+
+bool in_contact(const Case& c, const std::string& a, const std::string& b) {
+    if (c.contact.all) return true;
+    return std::any_of(c.contact.pairs.begin(), c.contact.pairs.end(),
+                       [&](const auto& p) { return (p.first == a && p.second == b) || (p.first == b && p.second == a); });
+}
+
+double mean_spacing(const Surface& s) {
+    double sum = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) sum += s.spacing[i] + s.dz[i];
+    return s.size() ? sum / static_cast<double>(s.size()) : 0;
+}
+
+}  // namespace
+
+Extent slice_extent(const Case& c) {
+    if (!c.slice) return {};
+    const double thickness = c.slice->layers * part_named(c, c.slice->reference).spacing_z;
+    return {c.slice->z - 0.5 * thickness, c.slice->z + 0.5 * thickness, true};
+}
+
+Estimate estimate(const Case& c) {
+    Estimate e;
+    const Extent extent = slice_extent(c);
+    for (const PartData& p : c.parts) {
+        const std::vector<ShapePtr> later = later_shapes(c, p);
+        const Box box = p.shape->bounds();
+        const double low = extent.periodic ? extent.low : box.min.z, high = extent.periodic ? extent.high : box.max.z, middle = 0.5 * (low + high);
+        // density of columns integrated over the section on a fine raster, by area of each pixel inside
+        const int n = 1200;
+        const double dx = (box.max.x - box.min.x) / n, dy = (box.max.y - box.min.y) / n;
+        std::vector<double> counts(static_cast<std::size_t>(n), 0), areas(static_cast<std::size_t>(n), 0);
+        exec::for_each(n, [&](std::int64_t j) {
+            for (int i = 0; i < n; ++i) {
+                const Point at{box.min.x + (i + 0.5) * dx, box.min.y + (static_cast<double>(j) + 0.5) * dy, middle};
+                double d = p.shape->distance(at);
+                for (const ShapePtr& l : later) d = std::max(d, -l->distance(at));
+                // the fraction of the pixel that lies inside, from the distance
+                const double inside = std::clamp(0.5 - d / (0.5 * (dx + dy)), 0.0, 1.0);
+                if (inside == 0) continue;
+                const double r = std::hypot(at.x - c.analysis.axis.x, at.y - c.analysis.axis.y);
+                const double s = std::min(std::max(p.spacing_far, p.spacing), p.spacing + p.grading_growth * std::max(0.0, r - p.grading_radius));
+                counts[static_cast<std::size_t>(j)] += inside * dx * dy / (s * s);
+                areas[static_cast<std::size_t>(j)] += inside * dx * dy;
+            }
+        }, 8);
+        double columns = 0, area = 0;
+        for (int j = 0; j < n; ++j) {
+            columns += counts[static_cast<std::size_t>(j)];
+            area += areas[static_cast<std::size_t>(j)];
+        }
+        const Material m = make_material(p.material);
+        Estimate::Part part;
+        part.name = p.name;
+        part.material = p.material.name;
+        const bool solid = p.formulation == Formulation::total_lagrangian;
+        part.formulation = solid ? "total_lagrangian" : "updated_lagrangian";
+        part.spacing = p.spacing;
+        part.spacing_far = std::max(p.spacing_far, p.spacing);
+        part.spacing_z = p.spacing_z;
+        part.mass = area * (high - low) * m.density;
+        const double layers = std::max(1.0, std::round((high - low) / p.spacing_z));
+        part.particles = columns * layers;
+        const double real = c.precision == Precision::single ? 4 : 8, width = 64 / real;
+        const double pad = largest_offset(p.smoothing);
+        const double slots = solid ? columns * (std::ceil(layers / width) * width + std::ceil(2 * pad / width) * width) : part.particles;
+        const double state = m.strength ? static_cast<double>(m.strength->state().size()) : 0;
+        const double per_slot = solid ? real * (37 + state + (p.viscosity.pairwise ? 6 : 0)) + 4 * 6 + 2 : 8.0 * (3 * 5 + 13 + 14) + 64;
+        part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
+        part.dt = solid ? c.step.courant_solid * stencil_tau * std::min(p.spacing, p.spacing_z) / m.sound_speed()
+                        : c.step.courant_fluid * p.smoothing * p.spacing /
+                              (std::max(m.sound_speed(), m.burn ? m.burn->speed : 0.0) * (1 + 0.6 * p.viscosity.alpha));
+        e.parts.push_back(part);
+        e.particles += part.particles;
+        e.bytes += part.bytes;
+        e.dt = e.dt == 0 ? part.dt : std::min(e.dt, part.dt);
+    }
+    e.steps = c.until / e.dt;
+    return e;
+}
+
+template <class R>
+World<R> assemble(const Case& c, const std::function<void(const std::string&)>& say) {
+    World<R> w;
+    const Extent extent = slice_extent(c);
+    w.z_low = extent.low;
+    w.period = extent.periodic ? extent.high - extent.low : 0;
+    w.contact = {c.contact.stiffness, c.contact.damping, c.contact.friction};
+    w.options = {c.step.courant_solid, c.step.courant_fluid, c.step.growth, c.step.minimum, c.step.energy_residual_limit};
+
+    for (const PartData& p : c.parts) {
+        const Placement placement = place(*p.shape, later_shapes(c, p), placement_options(c, p, extent));
+        if (p.formulation == Formulation::total_lagrangian) {
+            w.solids.push_back(make_solid<R>(c, p, placement, extent));
+            const SolidBody<R>& b = w.solids.back().body;
+            say(fmt::format("{}: {} particles in {} columns, {:.0f} bonds each, spacing {:g} ... {:g} mm, {:g} mm along z", b.name, b.layout.particles,
+                            b.layout.columns.size(), w.solids.back().pairs.bonds_per_particle, p.spacing, std::max(p.spacing, p.spacing_far), placement.dz));
+            for (const std::string& r : b.material.remarks) say("  " + b.material.name + ": " + r);
+        } else {
+            w.fluids.push_back(make_fluid(c, p, placement, extent));
+            const FluidBody& b = w.fluids.back().body;
+            say(fmt::format("{}: {} particles, spacing {:g} mm", b.name, b.size(), b.spacing));
+            for (const std::string& r : b.material.remarks) say("  " + b.material.name + ": " + r);
+        }
+    }
+
+    for (std::size_t i = 0; i < w.fluids.size(); ++i)
+        for (std::size_t j = i + 1; j < w.fluids.size(); ++j)
+            if (in_contact(c, w.fluids[i].body.name, w.fluids[j].body.name)) w.contacts.push_back({ContactPair::fluid_fluid, i, j});
+    for (std::size_t i = 0; i < w.fluids.size(); ++i)
+        for (std::size_t j = 0; j < w.solids.size(); ++j)
+            if (in_contact(c, w.fluids[i].body.name, w.solids[j].body.name)) w.contacts.push_back({ContactPair::fluid_solid, i, j});
+    for (std::size_t i = 0; i < w.solids.size(); ++i)
+        for (std::size_t j = i + 1; j < w.solids.size(); ++j) {
+            if (!in_contact(c, w.solids[i].body.name, w.solids[j].body.name)) continue;
+            // the finer one gives the nodes, the coarser one the smooth wall
+            const bool i_finer = mean_spacing(w.solids[i].surface) < mean_spacing(w.solids[j].surface);
+            w.contacts.push_back({ContactPair::solid_solid, i_finer ? i : j, i_finer ? j : i});
+        }
+
+    for (const BoundaryData& b : c.boundaries) {
+        for (SolidPart<R>& s : w.solids) {
+            if (b.part != "*" && b.part != s.body.name) continue;
+            if (b.kind == BoundaryKind::fix) {
+                // in a slice nothing ends at a plane across z
+                if (extent.periodic && std::abs(b.normal.z) > 0.7 * norm(b.normal)) continue;
+                const bool axis[3] = {b.fix_x, b.fix_y, b.fix_z};
+                s.fixed.push_back(make_fixed_plane(s.body, b.point, b.normal, axis));
+            } else if (b.kind == BoundaryKind::platen) {
+                if (extent.periodic && std::abs(b.normal.z) > 0.7 * norm(b.normal)) continue;
+                s.platens.push_back(make_solid_platen(s.body, Platen{b.point, b.normal}));
+            } else {
+                s.loads.push_back(make_wall_pressure(s.body, s.surface, *b.on, b.times, b.values));
+                if (s.loads.back().points.empty())
+                    throw InputError(fmt::format("boundary pressure on part {}: no wall of the part lies inside its shape", s.body.name));
+            }
+        }
+        for (FluidPart& f : w.fluids) {
+            if (b.kind != BoundaryKind::platen || (b.part != "*" && b.part != f.body.name)) continue;
+            if (extent.periodic && std::abs(b.normal.z) > 0.7 * norm(b.normal)) continue;
+            f.platens.push_back(Platen{b.point, b.normal});
+        }
+    }
+    return w;
+}
+
+template World<double> assemble(const Case&, const std::function<void(const std::string&)>&);
+template World<float> assemble(const Case&, const std::function<void(const std::string&)>&);
+
+}  // namespace brisance

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a case as data to a world that can be stepped.
+#pragma once
+
+#include "integrate/world.h"
+#include "io/case.h"
+
+#include <functional>
+#include <string>
+
+namespace brisance {
+
+/// What a case will need, before anything is computed.
+struct Estimate {
+    struct Part {
+        std::string name, material, formulation;
+        double spacing = 0, spacing_far = 0, spacing_z = 0, mass = 0;   ///< mm, mg
+        double particles = 0, bytes = 0, dt = 0;                        ///< dt: stable step at rest, us
+    };
+    std::vector<Part> parts;
+    double particles = 0, bytes = 0, dt = 0, steps = 0;
+};
+
+/// The z-range of a slice, or of the whole case.
+struct Extent {
+    double low = 0, high = 0;
+    bool periodic = false;
+};
+Extent slice_extent(const Case& c);
+
+/// Counts by areas and spacings, without placing anything: works for cases that would not fit.
+Estimate estimate(const Case& c);
+
+/// Places all parts and wires contacts, boundaries and detonations. `say` gets one line per part.
+template <class R> World<R> assemble(const Case& c, const std::function<void(const std::string&)>& say);
+
+}  // namespace brisance

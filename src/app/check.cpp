@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// brisance check: what a case will need. Runs nothing.
+#include "app/assembly.h"
+#include "app/commands.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "io/case_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace brisance {
+
+int check_command(const CaseOptions& o) {
+    std::vector<std::string> settings = o.settings;
+    if (!o.until.empty()) settings.push_back("run.until=" + o.until);
+    const Case c = read_case(o.file, o.preset, settings);
+    const Estimate e = estimate(c);
+    const double memory = 1024.0 * available_memory_kib();
+    // A rate that this kind of loop reaches on one core; `brisance run` prints the true one.
+    const double rate = 2.0e6 * exec::threads(), seconds = e.particles * e.steps / rate;
+    if (o.json) {
+        std::string parts;
+        for (const Estimate::Part& p : e.parts)
+            parts += fmt::format("{}{{\"name\": \"{}\", \"material\": \"{}\", \"particles\": {:.0f}, \"mass_mg\": {:.6g}, \"bytes\": {:.0f}, \"dt_us\": {:.4g}}}",
+                                 parts.empty() ? "" : ", ", p.name, p.material, p.particles, p.mass, p.bytes, p.dt);
+        fmt::print("{{\"parts\": [{}], \"particles\": {:.0f}, \"bytes\": {:.0f}, \"dt_us\": {:.4g}, \"steps\": {:.0f}, \"seconds\": {:.0f}, \"fits\": {}}}\n", parts,
+                   e.particles, e.bytes, e.dt, e.steps, seconds, e.bytes <= memory ? "true" : "false");
+    } else {
+        fmt::print("{}{}\n\n", c.title, c.preset.empty() ? "" : " (preset " + c.preset + ")");
+        fmt::print("{:<12} {:<18} {:<18} {:>9} {:>9} {:>9} {:>13} {:>12} {:>10} {:>9}\n", "part", "material", "formulation", "spacing", "far", "along z",
+                   "particles", "mass g", "MiB", "dt ns");
+        for (const Estimate::Part& p : e.parts)
+            fmt::print("{:<12} {:<18} {:<18} {:>9.3g} {:>9.3g} {:>9.3g} {:>13.0f} {:>12.5g} {:>10.0f} {:>9.2f}\n", p.name, p.material, p.formulation, p.spacing,
+                       p.spacing_far, p.spacing_z, p.particles, 1e-3 * p.mass, p.bytes / 1048576, 1e3 * p.dt);
+        fmt::print("\n{:.4g} particles, {:.3g} GiB (free: {:.3g} GiB)\n", e.particles, e.bytes / 1073741824, memory / 1073741824);
+        fmt::print("first step {:.2f} ns, at least {:.0f} steps to {:g} us at that step; about {} on {} threads\n", 1e3 * e.dt, e.steps, c.until,
+                   seconds < 3600 ? fmt::format("{:.0f} min", seconds / 60 + 1) : fmt::format("{:.1f} h", seconds / 3600), exec::threads());
+        for (const PartData& p : c.parts)
+            for (const std::string& r : make_material(p.material).remarks) fmt::print("{}: {}\n", p.material.name, r);
+    }
+    if (e.bytes > memory)
+        throw ResourceError(fmt::format("this case does not fit: it needs about {:.3g} GiB for {:.4g} particles, {:.3g} GiB are free", e.bytes / 1073741824, e.particles,
+                                        memory / 1073741824));
+    return 0;
+}
+
+}  // namespace brisance

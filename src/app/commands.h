@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program can be asked to do. Each returns an exit code (base/error.h); errors are thrown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace brisance {
+
+/// What the commands on a case have in common.
+struct CaseOptions {
+    std::string file, preset;
+    std::vector<std::string> settings;
+    std::string out;
+    bool overwrite = false;
+    std::string until;
+    int threads = 0;      ///< 0: all
+    bool json = false, quiet = false, report = true;
+    std::string command;  ///< the whole command line, for the provenance
+};
+
+int check_command(const CaseOptions& o);
+int run_command(const CaseOptions& o);
+int analyze_command(const std::string& run, bool json);
+int report_command(const std::vector<std::string>& runs, const std::string& out, bool pdf);
+int view_command(const std::string& run);
+int materials_command(const std::string& name, bool json);
+int reference_command(const std::string& what);
+
+/// Runs one of the Python scripts with an interpreter that has the modules; returns its exit code.
+int run_python(const std::string& script, const std::vector<std::string>& arguments);
+
+}  // namespace brisance

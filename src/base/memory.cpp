@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/memory.h"
+
+#include <fstream>
+#include <string>
+
+namespace brisance {
+
+double available_memory_kib() {
+    std::ifstream info("/proc/meminfo");
+    for (std::string key; info >> key;) {
+        double value = 0;
+        if (key == "MemAvailable:" && info >> value) return value;
+    }
+    return 1e18;
+}
+
+}  // namespace brisance

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/contact.h"
+
+#include "math/kernel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+namespace {
+
+double series(double a, double b) { return a * b / std::max(a + b, 1e-12); }
+
+/// The nodes of one side, whatever they belong to.
+struct Nodes {
+    const double *x, *y, *z, *vx, *vy, *vz;
+    std::int64_t n;
+    // per node
+    std::vector<double> radius, area, length, modulus, mass;
+    bool oriented = false;                    ///< surface points: they have normals, and touch only walls that face them
+    const double *nx = nullptr, *ny = nullptr, *nz = nullptr;
+    double *fx, *fy, *fz;
+};
+
+/// What node i feels of the wall: force and the normaliser of its weights.
+struct Touch {
+    double fx = 0, fy = 0, fz = 0, weights = 0, stored = 0, overlap = 0;
+};
+
+/// omega_ij, 0 out of reach; `gap` is set.
+inline double weight(const Surface& s, std::size_t j, double px, double py, double pz, double radius, double& gap) {
+    const double dx = px - s.x[j], dy = py - s.y[j], dz = pz - s.z[j];
+    gap = dx * s.nx[j] + dy * s.ny[j] + dz * s.nz[j];
+    if (gap > radius + s.spacing[j] || gap < -s.depth) return 0;
+    const double tx = dx - gap * s.nx[j], ty = dy - gap * s.ny[j], tz = dz - gap * s.nz[j];
+    const double q2 = (tx * tx + ty * ty) / (s.spacing[j] * s.spacing[j]) + tz * tz / (s.dz[j] * s.dz[j]);
+    return q2 < 4 ? s.area[j] * kernel::shape(std::sqrt(q2)) : 0.0;
+}
+
+ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
+    double radius = 0;
+    for (double r : nodes.radius) radius = std::max(radius, r);
+    const double reach = std::max(wall.reach, 0.0) + std::max(wall.depth, radius) + wall.reach * 0.5;
+    static thread_local CellGrid wall_grid, node_grid;
+    CellGrid& walls = wall_grid;
+    CellGrid& points = node_grid;
+    const double cell = 0.5 * reach;
+    walls.build(wall.x.data(), wall.y.data(), wall.z.data(), static_cast<std::int64_t>(wall.size()), cell, reach, z_low, period);
+    std::vector<Touch> touch(static_cast<std::size_t>(nodes.n));
+
+    exec::for_each(nodes.n, [&](std::int64_t n) {
+        const auto i = static_cast<std::size_t>(n);
+        Touch& t = touch[i];
+        double gap_sum = 0, nx = 0, ny = 0, nz = 0, vx = 0, vy = 0, vz = 0, modulus = 0;
+        walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], reach, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last; ++k) {
+                const auto j = static_cast<std::size_t>(walls.index(k));
+                if (nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3) continue;
+                double gap;
+                const double w = weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] - walls.shift(k), nodes.radius[i], gap);
+                if (w == 0) continue;
+                t.weights += w;
+                gap_sum += w * gap;
+                nx += w * wall.nx[j];
+                ny += w * wall.ny[j];
+                nz += w * wall.nz[j];
+                vx += w * wall.vx[j];
+                vy += w * wall.vy[j];
+                vz += w * wall.vz[j];
+                modulus += w * wall.modulus[j];
+            }
+        });
+        if (!(t.weights > 0)) return;
+        const double overlap = nodes.radius[i] - gap_sum / t.weights;
+        if (!(overlap > 0)) {
+            t.weights = 0;
+            return;
+        }
+        const double length = std::sqrt(nx * nx + ny * ny + nz * nz);
+        nx /= length;
+        ny /= length;
+        nz /= length;
+        const double wx = nodes.vx[i] - vx / t.weights, wy = nodes.vy[i] - vy / t.weights, wz = nodes.vz[i] - vz / t.weights;
+        const double approach = wx * nx + wy * ny + wz * nz;
+        const double k = o.stiffness * series(nodes.modulus[i], modulus / t.weights) * nodes.area[i] / nodes.length[i];
+        const double damping = 2 * o.damping * std::sqrt(k * nodes.mass[i]);
+        const double force = std::max(k * overlap - damping * approach, 0.0);
+        t.fx = force * nx;
+        t.fy = force * ny;
+        t.fz = force * nz;
+        if (o.friction > 0) {
+            // Coulomb, regularised over a slip speed of 1 m/s
+            const double sx = wx - approach * nx, sy = wy - approach * ny, sz = wz - approach * nz;
+            const double slip = std::sqrt(sx * sx + sy * sy + sz * sz), grip = o.friction * force / std::max(slip, 1e-3);
+            t.fx -= grip * sx;
+            t.fy -= grip * sy;
+            t.fz -= grip * sz;
+        }
+        t.stored = 0.5 * k * overlap * overlap;
+        t.overlap = overlap;
+        nodes.fx[i] += t.fx;
+        nodes.fy[i] += t.fy;
+        nodes.fz[i] += t.fz;
+    });
+
+    // Reactions, gathered by the wall's points with the same weights.
+    points.build(nodes.x, nodes.y, nodes.z, nodes.n, cell, reach, z_low, period);
+    exec::for_each(static_cast<std::int64_t>(wall.size()), [&](std::int64_t m) {
+        const auto j = static_cast<std::size_t>(m);
+        points.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last; ++k) {
+                const auto i = static_cast<std::size_t>(points.index(k));
+                const Touch& t = touch[i];
+                if (!(t.weights > 0)) continue;
+                if (nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3) continue;
+                double gap;
+                const double w = weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] + points.shift(k), nodes.radius[i], gap);
+                if (w == 0) continue;
+                wall.fx[j] -= w / t.weights * t.fx;
+                wall.fy[j] -= w / t.weights * t.fy;
+                wall.fz[j] -= w / t.weights * t.fz;
+            }
+        });
+    });
+
+    ContactReport report;
+    for (const Touch& t : touch) {
+        report.stored += t.stored;
+        report.penetration = std::max(report.penetration, t.overlap);
+        report.touching += t.weights > 0;
+    }
+    return report;
+}
+
+}  // namespace
+
+ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
+    Nodes n{a.x[0].data(), a.x[1].data(), a.x[2].data(), a.v_now[0].data(), a.v_now[1].data(), a.v_now[2].data(), a.size(), {}, {}, {}, {}, {},
+            false, nullptr, nullptr, nullptr, fa.fx.data(), fa.fy.data(), fa.fz.data()};
+    for (std::size_t i = 0; i < a.mass.size(); ++i) {
+        const double kappa = a.current_spacing(i);
+        n.radius.push_back(0.5 * kappa);
+        n.area.push_back(kappa * kappa);
+        n.length.push_back(0.25 * kappa);  // stiff enough that a gas does not gain volume: overlap = kappa/4 P/(rho c^2)
+        n.modulus.push_back(std::max(a.rho_now[i] * a.sound[i] * a.sound[i], 1e-9));
+        n.mass.push_back(a.mass[i]);
+    }
+    return against_wall(n, s, o, z_low, period);
+}
+
+ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
+    Nodes n{nodes.x.data(), nodes.y.data(), nodes.z.data(), nodes.vx.data(), nodes.vy.data(), nodes.vz.data(), static_cast<std::int64_t>(nodes.size()),
+            std::vector<double>(nodes.size(), 0.0), nodes.area, nodes.spacing, nodes.modulus, nodes.mass,
+            true, nodes.nx.data(), nodes.ny.data(), nodes.nz.data(), nodes.fx.data(), nodes.fy.data(), nodes.fz.data()};
+    return against_wall(n, wall, o, z_low, period);
+}
+
+ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
+    struct Side {
+        const FluidBody& body;
+        FluidForces& f;
+        std::vector<double> kappa, modulus;
+        CellGrid grid;
+    };
+    Side sides[2] = {{a, fa, {}, {}, {}}, {b, fb, {}, {}, {}}};
+    double largest = 0;
+    for (Side& s : sides)
+        for (std::size_t i = 0; i < s.body.mass.size(); ++i) {
+            s.kappa.push_back(s.body.current_spacing(i));
+            s.modulus.push_back(std::max(s.body.rho_now[i] * s.body.sound[i] * s.body.sound[i], 1e-9));
+            largest = std::max(largest, s.kappa.back());
+        }
+    for (Side& s : sides)
+        s.grid.build(s.body.x[0].data(), s.body.x[1].data(), s.body.x[2].data(), s.body.size(), largest, largest, s.body.z_low, s.body.period);
+
+    struct Acc {
+        double stored = 0, overlap = 0;
+        std::int64_t touching = 0;
+        Acc& operator+=(const Acc& o2) {
+            stored += o2.stored;
+            overlap = std::max(overlap, o2.overlap);
+            touching += o2.touching;
+            return *this;
+        }
+    };
+    ContactReport report;
+    for (int m = 0; m < 2; ++m) {
+        Side &me = sides[m], &other = sides[1 - m];
+        const Acc acc = exec::sum(me.body.size(), Acc{}, [&](std::int64_t n) {
+            const auto i = static_cast<std::size_t>(n);
+            const FluidBody &p = me.body, &q = other.body;
+            Acc local;
+            double fx = 0, fy = 0, fz = 0;
+            other.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], largest, [&](std::int64_t first, std::int64_t last) {
+                for (std::int64_t k = first; k < last; ++k) {
+                    const auto j = static_cast<std::size_t>(other.grid.index(k));
+                    const double dx = p.x[0][i] - q.x[0][j], dy = p.x[1][i] - q.x[1][j], dz = p.x[2][i] - q.x[2][j] - other.grid.shift(k);
+                    const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.kappa[i] + other.kappa[j]);
+                    if (r2 >= d * d || r2 < 1e-24) continue;
+                    const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
+                    const double stiffness = o.stiffness * series(me.modulus[i], other.modulus[j]) * d;
+                    // progressive: k (1 + 3 (overlap/d)^2)
+                    const double spring = stiffness * overlap * (1 + 3 * deep * deep);
+                    const double vn = ((p.v_now[0][i] - q.v_now[0][j]) * dx + (p.v_now[1][i] - q.v_now[1][j]) * dy +
+                                       (p.v_now[2][i] - q.v_now[2][j]) * dz) / r;
+                    const double m_star = series(p.mass[i], q.mass[j]);
+                    const double force = std::max(spring - 2 * o.damping * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
+                    fx += force * dx;
+                    fy += force * dy;
+                    fz += force * dz;
+                    local.stored += 0.5 * stiffness * overlap * overlap * (1 + 1.5 * deep * deep);
+                    local.overlap = std::max(local.overlap, overlap);
+                    ++local.touching;
+                }
+            });
+            me.f.fx[i] += fx;
+            me.f.fy[i] += fy;
+            me.f.fz[i] += fz;
+            return local;
+        });
+        report.stored += 0.5 * acc.stored;
+        report.penetration = std::max(report.penetration, acc.overlap);
+        report.touching = acc.touching;
+    }
+    return report;
+}
+
+}  // namespace brisance

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Penalty contact between parts. Two rules, chosen by the kind of the two:
+//
+// fluid - fluid: node to node. d_c = (kappa_i + kappa_j)/2 with kappa the current spacing, f = k (d_c - r) along the line of centres.
+//
+// anything - solid: node to smoothed surface. A solid's first layer carries points on its wall, s_j = x_j + delta_j n_j, and normals
+// n_j = cof(F) N/|cof(F) N|. A node i of the other part sees the weighted plane of the surface points near it,
+//   gap = sum omega_ij (x_i - s_j).n_j / sum omega_ij,   f = k (radius_i - gap) n,
+// and the reaction goes back to the nodes with the same weights. So a coarse wall is as smooth and as tight as a fine one: node-to-node
+// contact would let fine gas through between coarse nodes, and roughen the wall by a quarter of the spacing.
+//
+// Stiffness k = factor K A/l from the series of the two moduli rho c^2; damping acts on approach and separation while pressed; no
+// adhesion. Every force has its reaction, so momentum is exact; the work goes into the audit.
+#pragma once
+
+#include "neighbours/cell_grid.h"
+#include "neighbours/column_pairs.h"
+#include "particles/fluid_body.h"
+#include "particles/solid_body.h"
+
+#include <string>
+#include <vector>
+
+namespace brisance {
+
+struct ContactOptions {
+    double stiffness = 1, damping = 0.1, friction = 0;
+};
+
+/// The wall of a solid as contact sees it.
+struct Surface {
+    std::vector<std::int64_t> slot;    ///< of the particle behind each surface point
+    std::vector<std::int32_t> column;
+    std::vector<double> x, y, z, nx, ny, nz;      ///< current point on the wall, outward normal
+    std::vector<double> vx, vy, vz;               ///< velocity (of t_n-1/2)
+    std::vector<double> mass, area, spacing, dz;  ///< mg, mm2 (reference), mm
+    std::vector<double> modulus;                  ///< GPa
+    std::vector<double> fx, fy, fz;               ///< contact force of t_n, mN = mg mm/us2
+    std::vector<double> z_reference;
+    double reach = 0;                             ///< largest tangential reach of a point, mm
+    double depth = 0;                             ///< how far behind the wall a node is still pushed back, mm
+    std::size_t size() const { return slot.size(); }
+};
+
+/// The surface points of a body: particles of the first layer at its walls.
+template <class R> Surface make_surface(const SolidBody<R>& body);
+/// Moves the points with the body.
+template <class R> void follow(Surface& s, const SolidBody<R>& body, const ColumnPairs<R>& pairs);
+/// v += kick f/m for the surface's particles.
+template <class R> void push(const Surface& s, SolidBody<R>& body, double kick);
+
+/// What one pass of contact reports.
+struct ContactReport {
+    double stored = 0;        ///< J
+    double penetration = 0;   ///< mm, largest overlap
+    std::string where;        ///< the pair with the largest overlap
+    std::int64_t touching = 0;
+};
+
+/// Forces on fluid particles: arrays beside a FluidBody.
+struct FluidForces {
+    std::vector<double> fx, fy, fz;
+    void clear(std::size_t n) {
+        fx.assign(n, 0);
+        fy.assign(n, 0);
+        fz.assign(n, 0);
+    }
+};
+
+/// Node to node between two fluids; adds to both force arrays.
+ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb);
+
+/// A fluid against the smoothed surface of a solid.
+ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa);
+/// The surface of one solid against that of another: the points of `nodes` against the smoothed surface `wall` (the coarser of the two).
+ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period);
+
+}  // namespace brisance

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+template <class R>
+Surface make_surface(const SolidBody<R>& b) {
+    Surface s;
+    double coarsest = 0;
+    for (std::size_t c = 0; c < b.layout.columns.size(); ++c) {
+        const Column& column = b.layout.columns[c];
+        if (column.wall_layer != 0) continue;
+        for (int k = 0; k < column.layers; ++k) {
+            const std::int64_t slot = column.start + k;
+            if (!(b.layout.flags[static_cast<std::size_t>(slot)] & slot_own)) continue;
+            s.slot.push_back(slot);
+            s.column.push_back(static_cast<std::int32_t>(c));
+            s.mass.push_back(b.mass(column));
+            s.area.push_back(column.wall_length * b.layout.dz);
+            s.spacing.push_back(column.spacing);
+            s.dz.push_back(b.layout.dz);
+            s.modulus.push_back(b.material.longitudinal_modulus());
+            s.z_reference.push_back(column.z0 + k * b.layout.dz);
+        }
+        coarsest = std::max({coarsest, column.spacing, b.layout.dz});
+        s.depth = std::max(s.depth, 2 * column.wall_distance);
+    }
+    for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz}) a->assign(s.size(), 0);
+    s.reach = 2 * coarsest;
+    s.depth *= 1.5;
+    return s;
+}
+
+template <class R>
+void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs) {
+    exec::for_each(static_cast<std::int64_t>(s.size()), [&](std::int64_t i) {
+        const auto p = static_cast<std::size_t>(i), slot = static_cast<std::size_t>(s.slot[p]), c = static_cast<std::size_t>(s.column[p]);
+        const Column& column = b.layout.columns[c];
+        const double* k = pairs.k_inverse.data() + 6 * c;
+        Mat3<double> r;
+        double* rs[9] = {&r.xx, &r.xy, &r.xz, &r.yx, &r.yy, &r.yz, &r.zx, &r.zy, &r.zz};
+        for (std::size_t n = 0; n < 9; ++n) *rs[n] = static_cast<double>(b.R_sum[n][slot]);
+        Mat3<double> f = r * Sym3<double>{k[0], k[1], k[2], k[3], k[4], k[5]};
+        f.xx += 1;
+        f.yy += 1;
+        f.zz += 1;
+        const Vec3<double> normal{column.wall_normal_x, column.wall_normal_y, 0};
+        Vec3<double> n = cofactor(f) * normal;
+        double length = norm(n), jacobian = det(f);
+        if (!(b.live[slot] > R(0)) || !(length > 0.2 && length < 5 && jacobian > 0.2 && jacobian < 5) || dot(n, normal) < 0.3 * length) {
+            n = normal;  // a crushed particle's gradient says nothing of the wall any more
+            length = jacobian = 1;
+        }
+        const double delta = column.wall_distance * std::clamp(jacobian / length, 0.5, 1.5);
+        s.nx[p] = n.x / length;
+        s.ny[p] = n.y / length;
+        s.nz[p] = n.z / length;
+        s.x[p] = column.x + static_cast<double>(b.u[0][slot]) + delta * s.nx[p];
+        s.y[p] = column.y + static_cast<double>(b.u[1][slot]) + delta * s.ny[p];
+        s.z[p] = s.z_reference[p] + static_cast<double>(b.u[2][slot]) + delta * s.nz[p];
+        s.vx[p] = static_cast<double>(b.v[0][slot]);
+        s.vy[p] = static_cast<double>(b.v[1][slot]);
+        s.vz[p] = static_cast<double>(b.v[2][slot]);
+        s.fx[p] = s.fy[p] = s.fz[p] = 0;
+    }, 256);
+}
+
+template <class R>
+void push(const Surface& s, SolidBody<R>& b, double kick) {
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        const auto slot = static_cast<std::size_t>(s.slot[p]);
+        const double a[3] = {s.fx[p] / s.mass[p], s.fy[p] / s.mass[p], s.fz[p] / s.mass[p]};
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.v[k][slot] += static_cast<R>(kick * a[k]);
+            if (b.options.pairwise) b.acceleration[k][slot] += static_cast<R>(a[k]);
+        }
+    }
+}
+
+template Surface make_surface(const SolidBody<double>&);
+template Surface make_surface(const SolidBody<float>&);
+template void follow(Surface&, const SolidBody<double>&, const ColumnPairs<double>&);
+template void follow(Surface&, const SolidBody<float>&, const ColumnPairs<float>&);
+template void push(const Surface&, SolidBody<double>&, double);
+template void push(const Surface&, SolidBody<float>&, double);
+
+}  // namespace brisance

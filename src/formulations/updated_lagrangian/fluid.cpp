@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formulations/updated_lagrangian/updated_lagrangian.h"
+
+#include "math/kernel.h"
+#include "math/power.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+namespace {
+alignas(64) constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+}
+
+void light(FluidBody& b, const std::vector<Detonator>& detonators) {
+    for (std::size_t i = 0; i < b.lit.size(); ++i) {
+        b.lit[i] = 1e300;
+        for (const Detonator& d : detonators) {
+            double distance = 0;
+            if (d.kind != 2) {
+                double p[3], axis[3], length2 = 0, along = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    p[k] = b.x[k][i] - d.from[k];
+                    axis[k] = d.to[k] - d.from[k];
+                    length2 += axis[k] * axis[k];
+                    along += p[k] * axis[k];
+                }
+                const double t = d.kind == 1 && length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const double q = p[k] - t * axis[k];
+                    distance += q * q;
+                }
+                distance = std::sqrt(distance);
+            }
+            b.lit[i] = std::min(b.lit[i], d.time + distance / b.material.burn->speed);
+        }
+    }
+}
+
+void FluidSolver::state(FluidBody& b, double time) {
+    using V = Pack<double>;
+    constexpr int width = lanes<double>;
+    const double rho0 = b.material.density, floor = b.material.eos->pressure_floor();
+    const double h0 = b.options.smoothing * b.spacing;
+    const BurnLaw* burn = b.material.burn.get();
+    // complete when the front has passed by one and a half spacings, as in LS-DYNA's burn fraction F1
+    const double burn_rate = burn ? 2 * burn->speed / (3 * b.spacing) : 0;
+    const std::int64_t n = b.size();
+    exec::for_each((n + width - 1) / width, [&](std::int64_t block) {
+        const std::int64_t first = block * width, last = std::min(first + width, n);
+        alignas(64) double mu[width], energy[width];
+        for (int l = 0; l < width; ++l) {
+            const auto i = static_cast<std::size_t>(std::min(first + l, n - 1));
+            mu[l] = b.rho_now[i] / rho0 - 1;
+            energy[l] = b.e_now[i] * rho0;
+        }
+        EosTerms<V> t;
+        b.material.eos->terms(mu, t);
+        const V e = load<V>(energy), m = load<V>(mu);
+        V p = eos_pressure(t, e);
+        p = (p > floor) ? p : broadcast<V>(std::max(floor, -1e6));
+        V c2 = eos_stiffness(t, m, e, p) / rho0;
+        for (std::int64_t k = first; k < last; ++k) {
+            const auto i = static_cast<std::size_t>(k);
+            const int l = static_cast<int>(k - first);
+            double pressure = lane(p, l), sound = std::sqrt(std::max(lane(c2, l), 1e-12));
+            if (burn) {
+                const double since = time - b.lit[i];
+                if (since > 0) {
+                    const double compression = (1 - rho0 / b.rho_now[i]) / (1 - burn->cj_volume);
+                    b.burnt[i] = std::clamp(std::max({since * burn_rate, compression, b.burnt[i]}), 0.0, 1.0);
+                }
+                pressure *= b.burnt[i];
+                sound = std::max(sound, burn->speed * (1 - b.burnt[i]));
+            }
+            b.pressure[i] = pressure;
+            b.sound[i] = sound;
+            b.peak_pressure[i] = std::max(b.peak_pressure[i], pressure);
+            b.h[i] = h0 * std::clamp(std::cbrt(rho0 / b.rho_now[i]), b.options.h_min, b.options.h_max);
+        }
+    });
+}
+
+FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
+    using V = Pack<double>;
+    constexpr int width = lanes<double>;
+    const std::int64_t n = b.size();
+    double h_max = 0;
+    for (double h : b.h) h_max = std::max(h_max, h);
+    // Cells of the mean support's half: few candidates per particle, whatever the largest h is.
+    grid_.build(b.x[0].data(), b.x[1].data(), b.x[2].data(), n, std::max(0.7 * h_max, 1e-9), 2 * h_max, b.z_low, b.period);
+    const std::int64_t entries = grid_.entries();
+    const auto padded = static_cast<std::size_t>(entries + width);
+    for (auto* a : {&sx_, &sy_, &sz_, &svx_, &svy_, &svz_, &sm_, &srho_, &sp_, &sc_, &sh_, &sr_}) a->resize(padded);
+    const bool tension = b.options.artificial_stress;
+    exec::for_each(entries, [&](std::int64_t k) {
+        const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
+        sx_[s] = b.x[0][i];
+        sy_[s] = b.x[1][i];
+        sz_[s] = b.x[2][i] + grid_.shift(k);
+        svx_[s] = b.v_now[0][i];
+        svy_[s] = b.v_now[1][i];
+        svz_[s] = b.v_now[2][i];
+        sm_[s] = b.mass[i];
+        srho_[s] = b.rho_now[i];
+        sp_[s] = b.pressure[i] / (b.rho_now[i] * b.rho_now[i]);
+        sr_[s] = tension && b.pressure[i] < 0 ? b.options.epsilon * sp_[s] : 0;  // -eps sigma/rho^2 = eps P/rho^2, P < 0
+        sc_[s] = b.sound[i];
+        sh_[s] = b.h[i];
+    }, 1024);
+    for (std::size_t s = static_cast<std::size_t>(entries); s < padded; ++s) {
+        sx_[s] = 1e150;  // out of everybody's reach
+        sm_[s] = 0;
+        srho_[s] = sh_[s] = sc_[s] = 1;
+        sy_[s] = sz_[s] = svx_[s] = svy_[s] = svz_[s] = sp_[s] = sr_[s] = 0;
+    }
+    mu_.resize(static_cast<std::size_t>(n));
+
+    const double alpha = b.options.alpha, beta = b.options.beta;
+    struct Acc {
+        Powers p;
+        Acc& operator+=(const Acc& o) {
+            p.viscous += o.p.viscous;
+            p.artificial += o.p.artificial;
+            return *this;
+        }
+    };
+    const Acc total = exec::sum(entries, Acc{}, [&](std::int64_t k) {
+        if (grid_.image(k)) return Acc{};
+        const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
+        const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], rho = srho_[s], p = sp_[s], c = sc_[s],
+                     h = sh_[s], r_i = sr_[s];
+        V ax{}, ay{}, az{}, div{}, heat{}, viscous{}, artificial{}, mu_largest{};
+        grid_.ranges(x, y, z, 2 * h_max < h + h_max ? 2 * h_max : h + h_max, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t q = first; q < last; q += width) {
+                const V number = static_cast<double>(q) + load<V>(lane_number);
+                const V dx = x - load<V>(&sx_[static_cast<std::size_t>(q)]), dy = y - load<V>(&sy_[static_cast<std::size_t>(q)]),
+                        dz = z - load<V>(&sz_[static_cast<std::size_t>(q)]);
+                const V hm = 0.5 * (h + load<V>(&sh_[static_cast<std::size_t>(q)]));
+                const V r2 = dx * dx + dy * dy + dz * dz;
+                const auto in = (r2 < 4.0 * hm * hm) & (number < static_cast<double>(last)) & (r2 > 1e-24);
+                const V on = in ? broadcast<V>(1.0) : V{};
+                if (!(hmax(on) > 0)) continue;
+                const V mj = on * load<V>(&sm_[static_cast<std::size_t>(q)]);
+                const V rj = load<V>(&srho_[static_cast<std::size_t>(q)]);
+                const V r = vsqrt(r2), inverse_h = 1.0 / hm, u = r * inverse_h;
+                const V h2 = inverse_h * inverse_h;
+                // grad_i W = -weight r_ij
+                const V weight = kernel::sigma_3d * h2 * h2 * inverse_h * kernel::bond(vmin(u, broadcast<V>(2.0)));
+                const V dvx = vx - load<V>(&svx_[static_cast<std::size_t>(q)]), dvy = vy - load<V>(&svy_[static_cast<std::size_t>(q)]),
+                        dvz = vz - load<V>(&svz_[static_cast<std::size_t>(q)]);
+                const V vr = dvx * dx + dvy * dy + dvz * dz;
+                const V mu = vmin(hm * vr / (r2 + 0.01 * hm * hm), V{});
+                const V cm = 0.5 * (c + load<V>(&sc_[static_cast<std::size_t>(q)]));
+                const V pi = 2.0 * mu * (beta * mu - alpha * cm) / (rho + rj);
+                V bracket = p + load<V>(&sp_[static_cast<std::size_t>(q)]) + pi;
+                if (tension) {
+                    const V w = kernel::shape(vmin(u, broadcast<V>(2.0))), w0 = kernel::shape(b.spacing * inverse_h);
+                    const V f = w / vmax(w0, broadcast<V>(1e-6));
+                    const V extra = -(r_i + load<V>(&sr_[static_cast<std::size_t>(q)])) * power(f, b.options.n);
+                    bracket += extra;
+                    artificial -= 0.5 * mj * extra * weight * vr;
+                }
+                const V force = mj * weight * bracket;
+                ax += force * dx;
+                ay += force * dy;
+                az += force * dz;
+                const V wv = mj * weight * vr;
+                div += wv / rj;
+                heat -= 0.5 * bracket * wv;
+                viscous -= 0.5 * pi * wv;
+                mu_largest = vmax(mu_largest, on * (-mu));
+            }
+        });
+        b.acceleration[0][i] = hsum(ax);
+        b.acceleration[1][i] = hsum(ay);
+        b.acceleration[2][i] = hsum(az);
+        b.rho_rate[i] = -hsum(div);
+        b.e_rate[i] = hsum(heat);
+        mu_[i] = hmax(mu_largest);
+        Acc a;
+        a.p.viscous = b.mass[i] * hsum(viscous);
+        a.p.artificial = b.mass[i] * hsum(artificial);
+        return a;
+    });
+    return total.p;
+}
+
+void FluidSolver::kick(FluidBody& b, double kick) {
+    exec::for_each(b.size(), [&](std::int64_t k) {
+        const auto i = static_cast<std::size_t>(k);
+        for (std::size_t a = 0; a < 3; ++a) b.v[a][i] += kick * b.acceleration[a][i];
+        const double growth = std::clamp(kick * b.rho_rate[i], -1.0, 1.0);
+        b.rho[i] *= (1 + 0.5 * growth) / (1 - 0.5 * growth);
+        b.e[i] += kick * b.e_rate[i];
+    }, 1024);
+}
+
+void FluidSolver::drift(FluidBody& b, double dt) {
+    exec::for_each(b.size(), [&](std::int64_t k) {
+        const auto i = static_cast<std::size_t>(k);
+        for (std::size_t a = 0; a < 3; ++a) {
+            b.x[a][i] += dt * b.v[a][i];
+            b.v_now[a][i] = b.v[a][i] + 0.5 * dt * b.acceleration[a][i];
+        }
+        if (b.period > 0) {
+            double& z = b.x[2][i];
+            z -= b.period * std::floor((z - b.z_low) / b.period);
+        }
+        const double growth = std::clamp(0.5 * dt * b.rho_rate[i], -1.0, 1.0);
+        b.rho_now[i] = b.rho[i] * (1 + 0.5 * growth) / (1 - 0.5 * growth);
+        b.e_now[i] = b.e[i] + 0.5 * dt * b.e_rate[i];
+    }, 1024);
+}
+
+double FluidSolver::stable_rate(const FluidBody& b, std::int64_t& worst) const {
+    double rate = 0;
+    worst = -1;
+    for (std::int64_t k = 0; k < b.size(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
+                                   b.acceleration[2][i] * b.acceleration[2][i]);
+        const double r = std::max((b.sound[i] * (1 + 0.6 * b.options.alpha) + 0.6 * b.options.beta * mu_[i]) / b.h[i], std::sqrt(a / b.h[i]));
+        if (r > rate) {
+            rate = r;
+            worst = k;
+        }
+    }
+    return rate;
+}
+
+FluidSums FluidSolver::sums(const FluidBody& b) const {
+    const double rho0 = b.material.density, e0 = b.material.eos->initial_energy() / rho0;
+    return exec::sum(b.size(), FluidSums{}, [&](std::int64_t k) {
+        const auto i = static_cast<std::size_t>(k);
+        FluidSums s;
+        const double m = b.mass[i], vx = b.v[0][i], vy = b.v[1][i], vz = b.v[2][i];
+        s.kinetic = 0.5 * m * (vx * vx + vy * vy + vz * vz);
+        s.internal = m * b.e[i];
+        s.px = m * vx;
+        s.py = m * vy;
+        s.pz = m * vz;
+        if (b.material.burn) s.unburnt = m * e0 * (1 - b.burnt[i]);
+        return s;
+    });
+}
+
+}  // namespace brisance

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Updated-Lagrangian SPH for fluids (P only), with r = x_i - x_j, v = v_i - v_j, h = (h_i + h_j)/2:
+//   d rho_i/dt = rho_i sum (m_j/rho_j) v . grad_i W                                                Eq. 4, its sign made explicit
+//   dv_i/dt    = -sum m_j (P_i/rho_i^2 + P_j/rho_j^2 + Pi_ij - (R_i + R_j) f^n) grad_i W           Eq. 5
+//   de_i/dt    = 1/2 sum m_j (the same bracket) v . grad_i W                                       Eq. 6 as it must read
+//   Pi_ij = (-alpha c mu + beta mu^2)/rho, mu = h v.r/(r^2 + 0.01 h^2) where v.r < 0
+//   R_i = -eps sigma_i/rho_i^2 in tension (a fluid: sigma = -P), f = W(r, h)/W(spacing, h)         Eq. 7
+#pragma once
+
+#include "neighbours/cell_grid.h"
+#include "particles/fluid_body.h"
+
+namespace brisance {
+
+struct FluidSums {
+    double kinetic = 0, internal = 0, px = 0, py = 0, pz = 0, unburnt = 0;
+    FluidSums& operator+=(const FluidSums& o) {
+        kinetic += o.kinetic;
+        internal += o.internal;
+        px += o.px;
+        py += o.py;
+        pz += o.pz;
+        unburnt += o.unburnt;
+        return *this;
+    }
+};
+
+class FluidSolver {
+public:
+    /// Sets rho, e, P, c, h of the state at t_n (extrapolated), with burn fractions where the material burns.
+    void state(FluidBody& body, double time);
+    /// Neighbours, and the rates of v, rho, e at t_n.
+    /// Returns the viscous power and the power of the artificial stress, W = J/us.
+    struct Powers { double viscous = 0, artificial = 0; };
+    Powers rates(FluidBody& body);
+    /// v, rho, e over a kick. Contact has added to `acceleration` in between where it acts.
+    void kick(FluidBody& body, double kick);
+    /// x, and the extrapolation to the next t_n.
+    void drift(FluidBody& body, double dt);
+    /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us.
+    double stable_rate(const FluidBody& body, std::int64_t& worst) const;
+    FluidSums sums(const FluidBody& body) const;
+
+private:
+    CellGrid grid_;
+    // sorted copies of what neighbours need
+    Array<double> sx_, sy_, sz_, svx_, svy_, svz_, sm_, srho_, sp_, sc_, sh_, sr_;
+    Array<double> mu_;  ///< largest |mu| of each particle
+};
+
+/// Lighting times from detonation points: time + distance/D in the initial configuration.
+struct Detonator {
+    int kind = 0;  ///< 0 point, 1 line, 2 instant
+    double from[3] = {0, 0, 0}, to[3] = {0, 0, 0};
+    double time = 0;
+};
+void light(FluidBody& body, const std::vector<Detonator>& detonators);
+
+}  // namespace brisance

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that is stepped: parts, what acts between them and from outside, the clock and the ledger.
+#pragma once
+
+#include "boundary/boundary.h"
+#include "contact/contact.h"
+#include "formulations/total_lagrangian/total_lagrangian.h"
+#include "formulations/updated_lagrangian/updated_lagrangian.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace brisance {
+
+template <class R>
+struct SolidPart {
+    SolidBody<R> body;
+    ColumnPairs<R> pairs;
+    Surface surface;
+    std::vector<FixedPlane> fixed;
+    std::vector<SolidPlaten> platens;
+    std::vector<WallPressure> loads;
+    std::vector<std::vector<Vec3<double>>> load_force;
+    StressReport report;
+};
+
+struct FluidPart {
+    FluidBody body;
+    FluidSolver solver;
+    FluidForces forces;
+    std::vector<Platen> platens;
+};
+
+/// A pair of parts in contact: indices into solids or fluids.
+struct ContactPair {
+    enum Kind { fluid_fluid, fluid_solid, solid_solid } kind;
+    std::size_t a, b;
+};
+
+struct StepOptions {
+    double courant_solid = 0.6, courant_fluid = 0.3, growth = 1.02;
+    double minimum = 0;  ///< us
+    double residual_limit = 0.05;
+};
+
+/// Running totals since the start, J, and impulses, mg mm/us.
+struct Ledger {
+    double zero_energy_lost = 0, viscous = 0, artificial = 0;
+    double contact_work = 0;     ///< done by contact on the particles
+    double boundary_work = 0;    ///< done by prescribed loads on the particles
+    double impulse[3] = {0, 0, 0};  ///< of supports and loads
+};
+
+/// One row of the audit: where the energy is at a time.
+struct Audit {
+    std::int64_t step = 0;
+    double time = 0, dt = 0;
+    std::string limiter;
+    double kinetic = 0;
+    std::vector<double> internal;  ///< per part, solids then fluids; without what is still unburnt
+    double burn_released = 0;
+    double viscous = 0, artificial = 0;
+    double zero_energy = 0, zero_energy_dissipated = 0;
+    double contact_stored = 0, contact_dissipated = 0;
+    double boundary_work = 0;
+    double residual = 0, residual_relative = 0;
+    double momentum[3] = {0, 0, 0};
+    double momentum_residual = 0;  ///< |change of momentum - impulses| over sum of |m v|-like scale
+    double penetration = 0;
+    std::string penetration_where;
+    std::int64_t torn = 0, damaged = 0;
+};
+
+template <class R>
+struct World {
+    std::vector<SolidPart<R>> solids;
+    std::vector<FluidPart> fluids;
+    std::vector<ContactPair> contacts;
+    ContactOptions contact;
+    StepOptions options;
+    double z_low = 0, period = 0;  ///< plane strain: periodic in z when period > 0
+
+    double time = 0, dt = 0, dt_before = 0;
+    std::int64_t steps = 0;
+    std::string limiter;
+    Ledger ledger;
+    ContactReport contact_report;
+    Audit start;                   ///< the balance is held against this
+    std::int64_t torn = 0;
+    std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part, and of contact
+};
+
+/// Fills derived state at t = 0: pressures, rates, forces, the first step, the reference of the audit.
+template <class R> void begin(World<R>& w);
+/// One step.
+template <class R> void step(World<R>& w, double until);
+/// The audit of the present state.
+template <class R> Audit audit(const World<R>& w);
+/// Throws PhysicsStop with the particle's whole row on NaN, a collapsed step, or an energy residual above the limit.
+template <class R> void watch(const World<R>& w, const Audit& a);
+
+}  // namespace brisance

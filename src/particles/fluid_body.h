@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// State of an updated-Lagrangian part: gas, water, polymer. Particles keep their places in these arrays for ever, so that results do not
+// depend on how neighbours are found; the neighbour search makes its own sorted copies (neighbours/cell_grid.h).
+// Times: x at t_n; v, rho, e at t_n-1/2 before the kick and t_n+1/2 after it; the *_now columns extrapolate them to t_n.
+#pragma once
+
+#include "exec/exec.h"
+#include "laws/material.h"
+
+#include <array>
+#include <string>
+
+namespace brisance {
+
+struct FluidOptions {
+    double smoothing = 1.3;
+    double alpha = 1, beta = 2;         ///< Monaghan viscosity
+    bool artificial_stress = false;
+    double epsilon = 0.5, n = 4;        ///< of the artificial stress, Eq. 7
+    double h_min = 0.5, h_max = 5;      ///< limits of h over its initial value
+};
+
+struct FluidBody {
+    std::string name;
+    Material material;
+    FluidOptions options;
+    double spacing = 0;                 ///< initial, mm
+    double z_low = 0, period = 0;       ///< periodic in z when period > 0, mm
+
+    std::array<Array<double>, 3> x, v, v_now, acceleration;  ///< mm, mm/us, mm/us2
+    Array<double> mass;                 ///< mg
+    Array<double> rho, rho_now, rho_rate;   ///< g/cm3; rate relative: d(ln rho)/dt, 1/us
+    Array<double> e, e_now, e_rate;         ///< specific internal energy, km2/s2 (= kJ/g)
+    Array<double> pressure, sound, h;       ///< GPa, mm/us, mm
+    Array<double> lit;                  ///< us, when the detonation arrives (burn only)
+    Array<double> burnt;                ///< fraction
+    Array<double> peak_pressure;        ///< GPa
+    std::array<Array<double>, 3> reference;  ///< initial positions, mm
+
+    std::int64_t size() const { return static_cast<std::int64_t>(mass.size()); }
+    double current_spacing(std::size_t i) const { return std::cbrt(mass[i] / rho_now[i]); }
+};
+
+inline void resize(FluidBody& b, std::size_t n) {
+    for (auto* group : {&b.x, &b.v, &b.v_now, &b.acceleration, &b.reference})
+        for (auto& a : *group) a.assign(n, 0);
+    for (auto* a : {&b.mass, &b.rho, &b.rho_now, &b.rho_rate, &b.e, &b.e_now, &b.e_rate, &b.pressure, &b.sound, &b.h, &b.lit, &b.burnt,
+                    &b.peak_pressure})
+        a->assign(n, 0);
+}
+
+}  // namespace brisance
