@@ -11,10 +11,10 @@ from brisance.run import labels
 
 # What energy is kept in, and what brings it. The other columns of the audit (viscous, artificial_stress) are work that
 # ends in one of these, and are drawn as lines of their own.
-STORES = ("kinetic", "internal.*", "zero_energy", "contact_stored", "contact_dissipated")
+STORES = ("kinetic", "internal.*", "zero_energy", "zero_energy_dissipated", "contact_stored", "contact_dissipated")
 SUPPLIES = ("burn_released", "boundary_work")
-WORKS = ("viscous", "zero_energy", "artificial_stress", "contact_dissipated", "contact_stored")
-COLOURS = {"kinetic": "#d9902f", "zero_energy": "#b8a9c9", "contact_stored": "#8fb8a8", "contact_dissipated": "#4f7f6d",
+WORKS = ("viscous", "zero_energy", "zero_energy_dissipated", "artificial_stress", "contact_dissipated", "contact_stored")
+COLOURS = {"kinetic": "#d9902f", "zero_energy": "#b8a9c9", "zero_energy_dissipated": "#8a78a8", "contact_stored": "#8fb8a8", "contact_dissipated": "#4f7f6d",
            "viscous": "#23527c", "artificial_stress": "#a3262a"}
 PARTS = ("#8c8778", "#b5651d", "#c9a66b", "#5f8aa8", "#a8c3d1", "#6b5b7a", "#c0b283", "#4d5a4a")
 

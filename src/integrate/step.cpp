@@ -159,16 +159,18 @@ double next_step(World<R>& w, double until) {
         if (rate > 0) bound(w.options.courant_fluid / rate, f.body.name + ": wave");
         if (f.body.material.burn) bound(0.25 * f.body.spacing / f.body.material.burn->speed, f.body.name + ": burn");
     }
-    if (w.dt > 0 && dt > w.options.growth * w.dt) {
-        dt = w.options.growth * w.dt;
+    if (w.dt_free > 0 && dt > w.options.growth * w.dt_free) {
+        dt = w.options.growth * w.dt_free;
         w.limiter = "growth";
     }
     if (dt < w.options.minimum)
         throw PhysicsStop(fmt::format("the step fell to {:.3g} us (limit {:.3g} us) at t = {:.4f} us, held by {}; usual causes: a particle crushed "
                                       "in a contact, or a law outside of its range. Look at the last snapshot of that part, or lower step.minimum",
                                       dt, w.options.minimum, w.time, w.limiter));
-    if (w.time + dt > until) dt = until - w.time;
-    return dt;
+    w.dt_free = dt;
+    // Output times are met exactly, without a splinter of a step before them.
+    const double left = until - w.time;
+    return left <= dt ? left : (left < 2 * dt ? 0.5 * left : dt);
 }
 
 }  // namespace
@@ -213,7 +215,6 @@ void step(World<R>& w, double until) {
     for (SolidPart<R>& s : w.solids) timed(w, s.body.name, [&] { drift(s.body, dt); });
     for (FluidPart& f : w.fluids) f.solver.drift(f.body, dt);
     w.time += dt;
-    w.dt_before = w.dt;
     w.dt = dt;
     ++w.steps;
 

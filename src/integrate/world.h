@@ -81,7 +81,8 @@ struct World {
     StepOptions options;
     double z_low = 0, period = 0;  ///< plane strain: periodic in z when period > 0
 
-    double time = 0, dt = 0, dt_before = 0;
+    double time = 0, dt = 0;
+    double dt_free = 0;            ///< the last step before it was cut to meet an output time
     std::int64_t steps = 0;
     std::string limiter;
     Ledger ledger;
