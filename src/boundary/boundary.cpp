@@ -106,15 +106,19 @@ ContactReport press(SolidPlaten& p, const SolidBody<R>& body) {
 }
 
 template <class R>
-void push(const SolidPlaten& p, SolidBody<R>& body, double kick) {
+double push(const SolidPlaten& p, SolidBody<R>& body, double kick) {
+    double work = 0;
     for (std::size_t i = 0; i < p.slots.size(); ++i) {
         const auto slot = static_cast<std::size_t>(p.slots[i]);
-        const double a[3] = {p.fx[i] / p.mass[i], p.fy[i] / p.mass[i], p.fz[i] / p.mass[i]};
+        const double f[3] = {p.fx[i], p.fy[i], p.fz[i]};
         for (std::size_t k = 0; k < 3; ++k) {
-            body.v[k][slot] += static_cast<R>(kick * a[k]);
-            if (body.options.pairwise) body.acceleration[k][slot] += static_cast<R>(a[k]);
+            const double before = static_cast<double>(body.v[k][slot]);
+            body.v[k][slot] += static_cast<R>(kick * f[k] / p.mass[i]);
+            work += 0.5 * kick * f[k] * (before + static_cast<double>(body.v[k][slot]));
+            if (body.options.pairwise) body.acceleration[k][slot] += static_cast<R>(f[k] / p.mass[i]);
         }
     }
+    return work;
 }
 
 double WallPressure::at(double time) const {
@@ -168,7 +172,7 @@ void press(const WallPressure& w, double time, const SolidBody<R>& b, const Colu
     template void hold(const FixedPlane&, SolidBody<R>&, double*);                                                                    \
     template SolidPlaten make_solid_platen(const SolidBody<R>&, const Platen&);                                                       \
     template ContactReport press(SolidPlaten&, const SolidBody<R>&);                                                                  \
-    template void push(const SolidPlaten&, SolidBody<R>&, double);                                                                    \
+    template double push(const SolidPlaten&, SolidBody<R>&, double);                                                                   \
     template WallPressure make_wall_pressure(const SolidBody<R>&, const Surface&, const Shape&, std::vector<double>, std::vector<double>); \
     template void press(const WallPressure&, double, const SolidBody<R>&, const ColumnPairs<R>&, Surface&, std::vector<Vec3<double>>&);
 BRISANCE_INSTANTIATE(double)

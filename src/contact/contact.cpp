@@ -41,17 +41,26 @@ inline double weight(const Surface& s, std::size_t j, double px, double py, doub
 ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
     double radius = 0;
     for (double r : nodes.radius) radius = std::max(radius, r);
-    const double reach = std::max(wall.reach, 0.0) + std::max(wall.depth, radius) + wall.reach * 0.5;
-    static thread_local CellGrid wall_grid, node_grid;
-    CellGrid& walls = wall_grid;
-    CellGrid& points = node_grid;
-    const double cell = 0.5 * reach;
-    walls.build(wall.x.data(), wall.y.data(), wall.z.data(), static_cast<std::int64_t>(wall.size()), cell, reach, z_low, period);
+    // tangential reach, and how far in front of or behind the wall a node can be
+    const double reach = wall.reach + std::max(wall.depth, radius + 0.5 * wall.reach);
+    const double near = std::max(wall.depth, radius) + 0.5 * wall.reach;
+    static CellGrid walls, points;  // kept between steps for their memory; contact is not re-entrant
+    walls.build(wall.x.data(), wall.y.data(), wall.z.data(), static_cast<std::int64_t>(wall.size()), 0.5 * wall.reach, reach, z_low, period);
     std::vector<Touch> touch(static_cast<std::size_t>(nodes.n));
 
     exec::for_each(nodes.n, [&](std::int64_t n) {
         const auto i = static_cast<std::size_t>(n);
         Touch& t = touch[i];
+        // most nodes are far from the wall: is any point of it near, with the node not well in front?
+        bool close = false;
+        walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], near, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last && !close; ++k) {
+                const auto j = static_cast<std::size_t>(walls.index(k));
+                const double dx = nodes.x[i] - wall.x[j], dy = nodes.y[i] - wall.y[j], dz = nodes.z[i] - walls.shift(k) - wall.z[j];
+                close = dx * dx + dy * dy + dz * dz < near * near && dx * wall.nx[j] + dy * wall.ny[j] + dz * wall.nz[j] < 1.5 * nodes.radius[i] + 0.25 * wall.spacing[j];
+            }
+        });
+        if (!close) return;
         double gap_sum = 0, nx = 0, ny = 0, nz = 0, vx = 0, vy = 0, vz = 0, modulus = 0;
         walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
@@ -104,15 +113,32 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         nodes.fz[i] += t.fz;
     });
 
-    // Reactions, gathered by the wall's points with the same weights.
-    points.build(nodes.x, nodes.y, nodes.z, nodes.n, cell, reach, z_low, period);
+    ContactReport report;
+    std::vector<std::int32_t> touching;
+    for (std::int64_t n = 0; n < nodes.n; ++n)
+        if (touch[static_cast<std::size_t>(n)].weights > 0) touching.push_back(static_cast<std::int32_t>(n));
+    for (std::int32_t n : touching) {
+        const Touch& t = touch[static_cast<std::size_t>(n)];
+        report.stored += t.stored;
+        report.penetration = std::max(report.penetration, t.overlap);
+    }
+    report.touching = static_cast<std::int64_t>(touching.size());
+    if (touching.empty()) return report;
+
+    // Reactions, gathered by the wall's points with the same weights, from the nodes that touch.
+    std::vector<double> x, y, z;
+    for (std::int32_t n : touching) {
+        x.push_back(nodes.x[n]);
+        y.push_back(nodes.y[n]);
+        z.push_back(nodes.z[n]);
+    }
+    points.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(touching.size()), 0.5 * wall.reach, reach, z_low, period);
     exec::for_each(static_cast<std::int64_t>(wall.size()), [&](std::int64_t m) {
         const auto j = static_cast<std::size_t>(m);
         points.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
-                const auto i = static_cast<std::size_t>(points.index(k));
+                const auto i = static_cast<std::size_t>(touching[static_cast<std::size_t>(points.index(k))]);
                 const Touch& t = touch[i];
-                if (!(t.weights > 0)) continue;
                 if (nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3) continue;
                 double gap;
                 const double w = weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] + points.shift(k), nodes.radius[i], gap);
@@ -124,28 +150,35 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         });
     });
 
-    ContactReport report;
-    for (const Touch& t : touch) {
-        report.stored += t.stored;
-        report.penetration = std::max(report.penetration, t.overlap);
-        report.touching += t.weights > 0;
-    }
     return report;
 }
 
 }  // namespace
 
+void FluidForces::begin(const FluidBody& body) {
+    const std::size_t n = body.mass.size();
+    for (auto* a : {&fx, &fy, &fz}) a->assign(n, 0);
+    spacing.resize(n);
+    modulus.resize(n);
+    exec::for_each(body.size(), [&](std::int64_t k) {
+        const auto i = static_cast<std::size_t>(k);
+        spacing[i] = body.current_spacing(i);
+        modulus[i] = std::max(body.rho_now[i] * body.sound[i] * body.sound[i], 1e-9);
+    }, 1024);
+    largest_spacing = 0;
+    for (double s : spacing) largest_spacing = std::max(largest_spacing, s);
+}
+
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
     Nodes n{a.x[0].data(), a.x[1].data(), a.x[2].data(), a.v_now[0].data(), a.v_now[1].data(), a.v_now[2].data(), a.size(), {}, {}, {}, {}, {},
             false, nullptr, nullptr, nullptr, fa.fx.data(), fa.fy.data(), fa.fz.data()};
-    for (std::size_t i = 0; i < a.mass.size(); ++i) {
-        const double kappa = a.current_spacing(i);
+    for (double kappa : fa.spacing) {
         n.radius.push_back(0.5 * kappa);
         n.area.push_back(kappa * kappa);
         n.length.push_back(0.25 * kappa);  // stiff enough that a gas does not gain volume: overlap = kappa/4 P/(rho c^2)
-        n.modulus.push_back(std::max(a.rho_now[i] * a.sound[i] * a.sound[i], 1e-9));
-        n.mass.push_back(a.mass[i]);
     }
+    n.modulus = fa.modulus;
+    n.mass.assign(a.mass.begin(), a.mass.end());
     return against_wall(n, s, o, z_low, period);
 }
 
@@ -160,17 +193,11 @@ ContactReport node_contact(const FluidBody& a, const FluidBody& b, const Contact
     struct Side {
         const FluidBody& body;
         FluidForces& f;
-        std::vector<double> kappa, modulus;
         CellGrid grid;
     };
-    Side sides[2] = {{a, fa, {}, {}, {}}, {b, fb, {}, {}, {}}};
-    double largest = 0;
-    for (Side& s : sides)
-        for (std::size_t i = 0; i < s.body.mass.size(); ++i) {
-            s.kappa.push_back(s.body.current_spacing(i));
-            s.modulus.push_back(std::max(s.body.rho_now[i] * s.body.sound[i] * s.body.sound[i], 1e-9));
-            largest = std::max(largest, s.kappa.back());
-        }
+    static CellGrid kept[2];
+    Side sides[2] = {{a, fa, std::move(kept[0])}, {b, fb, std::move(kept[1])}};
+    const double largest = std::max(fa.largest_spacing, fb.largest_spacing);
     for (Side& s : sides)
         s.grid.build(s.body.x[0].data(), s.body.x[1].data(), s.body.x[2].data(), s.body.size(), largest, largest, s.body.z_low, s.body.period);
 
@@ -196,10 +223,10 @@ ContactReport node_contact(const FluidBody& a, const FluidBody& b, const Contact
                 for (std::int64_t k = first; k < last; ++k) {
                     const auto j = static_cast<std::size_t>(other.grid.index(k));
                     const double dx = p.x[0][i] - q.x[0][j], dy = p.x[1][i] - q.x[1][j], dz = p.x[2][i] - q.x[2][j] - other.grid.shift(k);
-                    const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.kappa[i] + other.kappa[j]);
+                    const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.f.spacing[i] + other.f.spacing[j]);
                     if (r2 >= d * d || r2 < 1e-24) continue;
                     const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
-                    const double stiffness = o.stiffness * series(me.modulus[i], other.modulus[j]) * d;
+                    const double stiffness = o.stiffness * series(me.f.modulus[i], other.f.modulus[j]) * d;
                     // progressive: k (1 + 3 (overlap/d)^2)
                     const double spring = stiffness * overlap * (1 + 3 * deep * deep);
                     const double vn = ((p.v_now[0][i] - q.v_now[0][j]) * dx + (p.v_now[1][i] - q.v_now[1][j]) * dy +
@@ -223,6 +250,7 @@ ContactReport node_contact(const FluidBody& a, const FluidBody& b, const Contact
         report.penetration = std::max(report.penetration, acc.overlap);
         report.touching = acc.touching;
     }
+    for (int m = 0; m < 2; ++m) kept[m] = std::move(sides[m].grid);
     return report;
 }
 

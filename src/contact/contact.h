@@ -36,6 +36,8 @@ struct Surface {
     std::vector<double> mass, area, spacing, dz;  ///< mg, mm2 (reference), mm
     std::vector<double> modulus;                  ///< GPa
     std::vector<double> fx, fy, fz;               ///< contact force of t_n, mN = mg mm/us2
+    std::vector<double> ix, iy, iz;               ///< impulse of the coming kick, mg mm/us
+    std::vector<double> jx, jy, jz;               ///< of a body with long steps: impulse applied ahead of what contact gave, mg mm/us
     std::vector<double> z_reference;
     double reach = 0;                             ///< largest tangential reach of a point, mm
     double depth = 0;                             ///< how far behind the wall a node is still pushed back, mm
@@ -44,10 +46,19 @@ struct Surface {
 
 /// The surface points of a body: particles of the first layer at its walls.
 template <class R> Surface make_surface(const SolidBody<R>& body);
-/// Moves the points with the body.
-template <class R> void follow(Surface& s, const SolidBody<R>& body, const ColumnPairs<R>& pairs);
-/// v += kick f/m for the surface's particles.
+/// Moves the points with the body, `ahead` us (negative: back) from where its displacements stand, and clears the forces.
+template <class R> void follow(Surface& s, const SolidBody<R>& body, const ColumnPairs<R>& pairs, double ahead);
+/// The impulse of a kick, f times its length, into ix, iy, iz.
+void plan(Surface& s, double kick);
+/// The same for a body that takes long steps while contact acts in short ones: the impulse of contact up to now, and that of the next
+/// half step foreseen from the force of now. What was foreseen is taken back as contact gives it (`give`), so momentum is exact.
+void plan_ahead(Surface& s, double step);
+/// One short kick of contact has acted.
+void give(Surface& s, double kick);
+/// v += i/m for the surface's particles.
 template <class R> void push(const Surface& s, SolidBody<R>& body, double kick);
+/// Sum of i.v/2 with the velocity as it stands: before and after a kick it makes the work i.(v- + v+)/2, J.
+template <class R> double half_work(const Surface& s, const SolidBody<R>& body);
 
 /// What one pass of contact reports.
 struct ContactReport {
@@ -59,12 +70,11 @@ struct ContactReport {
 
 /// Forces on fluid particles: arrays beside a FluidBody.
 struct FluidForces {
-    std::vector<double> fx, fy, fz;
-    void clear(std::size_t n) {
-        fx.assign(n, 0);
-        fy.assign(n, 0);
-        fz.assign(n, 0);
-    }
+    std::vector<double> fx, fy, fz;          ///< mN
+    std::vector<double> spacing, modulus;    ///< current spacing kappa, mm, and rho c^2, GPa, of each particle
+    double largest_spacing = 0;
+    /// No forces, and the spacing and stiffness of the present state.
+    void begin(const FluidBody& body);
 };
 
 /// Node to node between two fluids; adds to both force arrays.

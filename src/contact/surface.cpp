@@ -28,14 +28,14 @@ Surface make_surface(const SolidBody<R>& b) {
         coarsest = std::max({coarsest, column.spacing, b.layout.dz});
         s.depth = std::max(s.depth, 2 * column.wall_distance);
     }
-    for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz}) a->assign(s.size(), 0);
+    for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz, &s.ix, &s.iy, &s.iz, &s.jx, &s.jy, &s.jz}) a->assign(s.size(), 0);
     s.reach = 2 * coarsest;
     s.depth *= 1.5;
     return s;
 }
 
 template <class R>
-void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs) {
+void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs, double ahead) {
     exec::for_each(static_cast<std::int64_t>(s.size()), [&](std::int64_t i) {
         const auto p = static_cast<std::size_t>(i), slot = static_cast<std::size_t>(s.slot[p]), c = static_cast<std::size_t>(s.column[p]);
         const Column& column = b.layout.columns[c];
@@ -58,33 +58,75 @@ void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs) {
         s.nx[p] = n.x / length;
         s.ny[p] = n.y / length;
         s.nz[p] = n.z / length;
-        s.x[p] = column.x + static_cast<double>(b.u[0][slot]) + delta * s.nx[p];
-        s.y[p] = column.y + static_cast<double>(b.u[1][slot]) + delta * s.ny[p];
-        s.z[p] = s.z_reference[p] + static_cast<double>(b.u[2][slot]) + delta * s.nz[p];
         s.vx[p] = static_cast<double>(b.v[0][slot]);
         s.vy[p] = static_cast<double>(b.v[1][slot]);
         s.vz[p] = static_cast<double>(b.v[2][slot]);
+        s.x[p] = column.x + static_cast<double>(b.u[0][slot]) + ahead * s.vx[p] + delta * s.nx[p];
+        s.y[p] = column.y + static_cast<double>(b.u[1][slot]) + ahead * s.vy[p] + delta * s.ny[p];
+        s.z[p] = s.z_reference[p] + static_cast<double>(b.u[2][slot]) + ahead * s.vz[p] + delta * s.nz[p];
         s.fx[p] = s.fy[p] = s.fz[p] = 0;
     }, 256);
+}
+
+void plan(Surface& s, double kick) {
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        // what a long step had foreseen and contact never gave is taken back
+        s.ix[p] = kick * s.fx[p] - s.jx[p];
+        s.iy[p] = kick * s.fy[p] - s.jy[p];
+        s.iz[p] = kick * s.fz[p] - s.jz[p];
+        s.jx[p] = s.jy[p] = s.jz[p] = 0;
+    }
+}
+
+void plan_ahead(Surface& s, double step) {
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        const double x = 0.5 * step * s.fx[p], y = 0.5 * step * s.fy[p], z = 0.5 * step * s.fz[p];
+        s.ix[p] = x - s.jx[p];
+        s.iy[p] = y - s.jy[p];
+        s.iz[p] = z - s.jz[p];
+        s.jx[p] = x;
+        s.jy[p] = y;
+        s.jz[p] = z;
+    }
+}
+
+void give(Surface& s, double kick) {
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        s.jx[p] -= kick * s.fx[p];
+        s.jy[p] -= kick * s.fy[p];
+        s.jz[p] -= kick * s.fz[p];
+    }
 }
 
 template <class R>
 void push(const Surface& s, SolidBody<R>& b, double kick) {
     for (std::size_t p = 0; p < s.size(); ++p) {
         const auto slot = static_cast<std::size_t>(s.slot[p]);
-        const double a[3] = {s.fx[p] / s.mass[p], s.fy[p] / s.mass[p], s.fz[p] / s.mass[p]};
+        const double i[3] = {s.ix[p] / s.mass[p], s.iy[p] / s.mass[p], s.iz[p] / s.mass[p]};
         for (std::size_t k = 0; k < 3; ++k) {
-            b.v[k][slot] += static_cast<R>(kick * a[k]);
-            if (b.options.pairwise) b.acceleration[k][slot] += static_cast<R>(a[k]);
+            b.v[k][slot] += static_cast<R>(i[k]);
+            if (b.options.pairwise) b.acceleration[k][slot] += static_cast<R>(i[k] / kick);
         }
     }
 }
 
+template <class R>
+double half_work(const Surface& s, const SolidBody<R>& b) {
+    double work = 0;
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        const auto slot = static_cast<std::size_t>(s.slot[p]);
+        work += s.ix[p] * static_cast<double>(b.v[0][slot]) + s.iy[p] * static_cast<double>(b.v[1][slot]) + s.iz[p] * static_cast<double>(b.v[2][slot]);
+    }
+    return 0.5 * work;
+}
+
 template Surface make_surface(const SolidBody<double>&);
 template Surface make_surface(const SolidBody<float>&);
-template void follow(Surface&, const SolidBody<double>&, const ColumnPairs<double>&);
-template void follow(Surface&, const SolidBody<float>&, const ColumnPairs<float>&);
+template void follow(Surface&, const SolidBody<double>&, const ColumnPairs<double>&, double);
+template void follow(Surface&, const SolidBody<float>&, const ColumnPairs<float>&, double);
 template void push(const Surface&, SolidBody<double>&, double);
 template void push(const Surface&, SolidBody<float>&, double);
+template double half_work(const Surface&, const SolidBody<double>&);
+template double half_work(const Surface&, const SolidBody<float>&);
 
 }  // namespace brisance

@@ -31,6 +31,11 @@ Audit audit(const World<R>& w) {
         a.momentum[1] += b.py;
         a.momentum[2] += b.pz;
         a.damaged += b.damaged;
+        for (std::size_t p = 0; p < s.surface.size(); ++p) {  // impulse that the other side has not given yet
+            a.momentum[0] -= s.surface.jx[p];
+            a.momentum[1] -= s.surface.jy[p];
+            a.momentum[2] -= s.surface.jz[p];
+        }
         double mass = 0;
         for (const Column& c : s.body.layout.columns) mass += s.body.mass(c) * c.layers;
         scale += std::sqrt(2 * b.kinetic * mass);

@@ -23,6 +23,9 @@ struct SolidPart {
     std::vector<WallPressure> loads;
     std::vector<std::vector<Vec3<double>>> load_force;
     StressReport report;
+    double dt = 0;       ///< its last drift, us
+    bool slow = false;   ///< takes one long step while the others take several short ones
+    double time = 0;     ///< us, at which its displacements stand (ahead of the world's within a long step)
 };
 
 struct FluidPart {
@@ -81,12 +84,15 @@ struct World {
     StepOptions options;
     double z_low = 0, period = 0;  ///< plane strain: periodic in z when period > 0
 
-    double time = 0, dt = 0;
+    double time = 0;               ///< us
+    double dt = 0;                 ///< last drift of the fast parts, us
     double dt_free = 0;            ///< the last step before it was cut to meet an output time
+    std::int64_t short_steps = 0;  ///< steps of the fast parts
     std::int64_t steps = 0;
     std::string limiter;
     Ledger ledger;
     ContactReport contact_report;
+    Vec3<double> force_from_outside{};  ///< platens and loads, mN
     Audit start;                   ///< the balance is held against this
     std::int64_t torn = 0;
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part, and of contact
@@ -94,7 +100,7 @@ struct World {
 
 /// Fills derived state at t = 0: pressures, rates, forces, the first step, the reference of the audit.
 template <class R> void begin(World<R>& w);
-/// One step.
+/// One step: the slow parts once, the fast ones as often as they need. Ends at `until` at the latest.
 template <class R> void step(World<R>& w, double until);
 /// The audit of the present state.
 template <class R> Audit audit(const World<R>& w);

@@ -15,6 +15,7 @@ struct ColumnPair {
     std::int64_t shift;
     R dx, dy;        ///< mm
     R z_first, dz;   ///< z of offset 0, and its step, mm
+    R h;             ///< smoothing length of the pair for viscosity: the smaller of section and z, mm
     std::int32_t count;
     std::int32_t weights;  ///< first weight in ColumnPairs::w
 };

@@ -29,7 +29,7 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), ai = load<V>(stiffness);
     [[maybe_unused]] const R *vx = nullptr, *vy = nullptr, *vz = nullptr;
     [[maybe_unused]] V vxi{}, vyi{}, vzi{};
-    [[maybe_unused]] R h = 0, alpha_c = 0, beta = 0, rho = 0;
+    [[maybe_unused]] R alpha_c = 0, beta = 0, rho = 0;
     if constexpr (viscous) {
         vx = b.v_now[0].data() + i;
         vy = b.v_now[1].data() + i;
@@ -37,7 +37,6 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
         vxi = load<V>(vx);
         vyi = load<V>(vy);
         vzi = load<V>(vz);
-        h = static_cast<R>(b.options.smoothing * std::min(b.layout.columns[c].spacing, b.layout.dz));
         rho = static_cast<R>(b.material.density);
         alpha_c = static_cast<R>(b.options.alpha * b.material.sound_speed());
         beta = static_cast<R>(b.options.beta);
@@ -78,7 +77,7 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
                 const V x = dx + pair.dx, y = dy + pair.dy, zz = dz + z;
                 const V dvx = load<V>(vx + j) - vxi, dvy = load<V>(vy + j) - vyi, dvz = load<V>(vz + j) - vzi;
                 const V xv = vmin(x * dvx + y * dvy + zz * dvz, V{});
-                const V mu = h * xv / (x * x + y * y + zz * zz + R(0.01) * h * h);
+                const V mu = pair.h * xv / (x * x + y * y + zz * zz + R(0.01) * pair.h * pair.h);
                 const V q = weight * (rho * mu * (beta * mu - alpha_c));
                 f.x -= q * x;
                 f.y -= q * y;

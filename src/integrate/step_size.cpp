@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrate/step_size.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brisance {
+
+namespace {
+
+/// Longest run of short steps within a long one: contact forces foreseen for half of it must stay honest.
+constexpr double most_short_steps = 16;
+
+template <class R>
+double solid_limit(const World<R>& w, const SolidPart<R>& s) {
+    double rate = s.report.rate;
+    if (rate == 0) {  // before the first stress pass
+        double least = s.body.layout.dz;
+        for (const Column& c : s.body.layout.columns) least = std::min(least, c.spacing);
+        rate = s.body.material.sound_speed() / least;
+    }
+    return w.options.courant_solid * stencil_tau / rate;
+}
+
+/// Stable step of the fluids and of the solids that are not slow; notes who holds it.
+template <class R>
+double fast_limit(World<R>& w) {
+    double dt = 1e300;
+    const auto bound = [&](double limit, const std::string& who) {
+        if (limit < dt) {
+            dt = limit;
+            w.limiter = who;
+        }
+    };
+    for (const SolidPart<R>& s : w.solids)
+        if (!s.slow) bound(solid_limit(w, s), s.body.name + ": wave");
+    for (const FluidPart& f : w.fluids) {
+        std::int64_t worst;
+        const double rate = f.solver.stable_rate(f.body, worst);
+        if (rate > 0) bound(w.options.courant_fluid / rate, f.body.name + ": wave");
+        const bool burning = f.body.material.burn && std::any_of(f.body.burnt.begin(), f.body.burnt.end(), [](double b) { return b < 1; });
+        if (burning) bound(0.25 * f.body.spacing / f.body.material.burn->speed, f.body.name + ": burn");
+    }
+    if (w.dt_free > 0 && dt > w.options.growth * w.dt_free) {
+        dt = w.options.growth * w.dt_free;
+        w.limiter = "growth";
+    }
+    if (dt < w.options.minimum)
+        throw PhysicsStop(fmt::format("the step fell to {:.3g} us (limit {:.3g} us) at t = {:.4f} us, held by {}; usual causes: a particle crushed "
+                                      "in a contact, or a law outside of its range. Look at the last snapshot of that part, or lower step.minimum",
+                                      dt, w.options.minimum, w.time, w.limiter));
+    return dt;
+}
+
+/// Output times are met exactly, without a splinter of a step before them.
+double fit(double dt, double left) {
+    return left <= dt * (1 + 1e-9) ? left : (left < 2 * dt ? 0.5 * left : dt);
+}
+
+}  // namespace
+
+template <class R>
+double choose_step(World<R>& w, double until) {
+    for (SolidPart<R>& s : w.solids) s.slow = false;
+    double fluids = 1e300;
+    for (const FluidPart& f : w.fluids) {
+        std::int64_t worst;
+        const double rate = f.solver.stable_rate(f.body, worst);
+        if (rate > 0) fluids = std::min(fluids, w.options.courant_fluid / rate);
+    }
+    double fast = fluids, slow = 1e300;
+    for (const SolidPart<R>& s : w.solids) fast = std::min(fast, solid_limit(w, s));
+    if (!w.fluids.empty() || w.solids.size() > 1)
+        for (SolidPart<R>& s : w.solids) {
+            const double limit = solid_limit(w, s);
+            s.slow = s.loads.empty() && limit > 2 * fast;
+            if (s.slow) slow = std::min({slow, limit, s.dt > 0 ? 1.1 * s.dt : limit});
+        }
+    const double left = until - w.time;
+    if (slow == 1e300) return choose_short_step(w, until);
+    return fit(std::min(slow, most_short_steps * fast), left);
+}
+
+template <class R>
+double choose_short_step(World<R>& w, double end) {
+    w.dt_free = fast_limit(w);
+    const double left = end - w.time;
+    bool block = false;
+    for (const SolidPart<R>& s : w.solids) block = block || s.slow;
+    if (!block) return fit(w.dt_free, left);
+    return left / std::ceil(left / w.dt_free - 1e-9);  // equal parts of what is left of the long step
+}
+
+template double choose_step(World<double>&, double);
+template double choose_step(World<float>&, double);
+template double choose_short_step(World<double>&, double);
+template double choose_short_step(World<float>&, double);
+
+}  // namespace brisance
