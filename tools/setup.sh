@@ -57,7 +57,7 @@ need_packages() {
     [[ -n ${BRISANCE_SKIP_PACKAGES:-} ]] && return
     local tool wanted=() as_root=()
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-        say "This is not a Debian system. brisance needs what these Debian packages hold: $(packages "$@" | cut -d' ' -f1 | xargs)"
+        say "This is not a Debian system. brisance needs what these Debian packages hold: $(packages "$@" | cut -d' ' -f1 | tr '\n' ' ')"
         for tool in $(packages build | cut -s -d' ' -f2); do
             [[ $tool == g++ ]] && command -v "${CXX:-c++}" >/dev/null && continue
             command -v "$tool" >/dev/null || fail 4 "there is no $tool on the PATH"
@@ -96,7 +96,7 @@ need_packages() {
 logged() {
     printf '+ %s\n' "$*" >>"$log"
     "$@" </dev/null >>"$log" 2>&1 && return
-    grep -E -m 8 '(^|[^a-z])error' "$log" >&2
+    head -n -25 "$log" | grep -E -m 8 '(^|[^a-z])error' >&2  # the first one is seldom at the end
     say "..."
     tail -n 25 "$log" >&2
     fail 1 "the build failed; all of its output is in $log"
@@ -132,9 +132,8 @@ setup() {
         : >"$log"
         need_packages "$@"
         if [[ -x $binary ]]; then say "building what changed ..."; else say "building brisance (about a minute) ..."; fi
-        mkdir -p "$build"
-        printf '%s\n' "$root" >"$stamp.new"  # dated before the build, so that an edit made meanwhile counts as newer
         configure "$tests"
+        printf '%s\n' "$root" >"$stamp.new"  # dated before the build, so that an edit made meanwhile counts as newer
         logged cmake --build "$build" --target "$target"
         mv "$stamp.new" "$stamp"
     fi

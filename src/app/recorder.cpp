@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/recorder.h"
 
+#include "app/fracture.h"
+
 #include "math/eigen.h"
 #include "math/kernel.h"
 
@@ -88,9 +90,7 @@ template <class R>
 Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
     : case_(c), run_(run), audit_(run.file("audit.csv"), audit_columns(w)), history_([&] {
           std::vector<CsvColumn> columns{{"t", "us"}};
-          if (c.slice) columns.push_back({"damaged.slice", "-"});
-          else
-              for (const SectionData& s : c.analysis.sections) columns.push_back({"damaged." + s.name, "-"});
+          for (const SectionData& s : sections_of(c)) columns.push_back({"damaged." + s.name, "-"});
           columns.push_back({"damaged.all", "-"});
           return CsvFile(run.file("history.csv"), columns);
       }()), snapshots_(run.snapshots()) {
@@ -101,19 +101,15 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
         }
     if (has_analysed_) {
         const SolidBody<R>& b = w.solids[analysed_].body;
-        std::vector<SectionData> sections = c.analysis.sections;
-        if (c.slice) sections = {{"slice", c.slice->z}};
         double inner = 1e300, outer = 0;
         for (const Column& column : b.layout.columns) {
             const double r = std::hypot(column.x - b.axis_x, column.y - b.axis_y);
             if (column.wall_layer == 0) inner = std::min(inner, r - column.wall_distance);
             outer = std::max(outer, r + (column.wall_layer == 0 ? column.wall_distance : 0));
         }
-        options_.threshold = c.analysis.damage_threshold;
-        options_.zone_edges = c.analysis.zone_radii;
-        options_.sectors = c.analysis.sectors;
+        options_ = section_options(c);
         options_.specimen = {std::max(inner, 0.0), outer};
-        for (const SectionData& s : sections) {
+        for (const SectionData& s : sections_of(c)) {
             Section section{s, {}, {}};
             for (std::size_t i = 0; i < b.layout.columns.size(); ++i) {
                 const Column& column = b.layout.columns[i];
@@ -176,7 +172,7 @@ std::optional<Audit> Recorder<R>::record(const World<R>& w) {
                 return !b.state.empty() && static_cast<double>(b.state[0][static_cast<std::size_t>(slot)]) > options_.threshold;
             })));
         }
-        if (!has_analysed_) damaged.resize(1 + (case_.slice ? 1 : case_.analysis.sections.size()), 0);
+        if (!has_analysed_) damaged.resize(1 + sections_of(case_).size(), 0);
         damaged.push_back(static_cast<double>(last_.damaged));
         history_.row(damaged);
         if (has_analysed_) {
@@ -270,13 +266,8 @@ analysis::FractureReport Recorder<R>::fracture_report(const World<R>& w) const {
             pressure.push_back(static_cast<double>(b.peak_pressure[i]));
             radial.push_back(static_cast<double>(b.peak_radial[i]));
         }
-    const double inner = std::max(options_.specimen.hole_radius, 0.1), outer = options_.specimen.outer_radius;
-    const std::vector<double> edges = analysis::logarithmic_edges(inner, outer, 30);
-    const double from = inner + 5, to = inner + 0.65 * (outer - inner);
-    for (auto [peaks, out] : {std::pair{&pressure, &r.pressure}, std::pair{&radial, &r.radial_stress}}) {
-        out->bins = analysis::bin_peaks(radius, *peaks, edges);
-        out->law = analysis::fit_power_law(out->bins.r, out->bins.median, from, to);
-    }
+    r.pressure = attenuation_of(radius, pressure, options_.specimen);
+    r.radial_stress = attenuation_of(radius, radial, options_.specimen);
     return r;
 }
 

@@ -12,12 +12,15 @@ namespace {
 
 double series(double a, double b) { return a * b / std::max(a + b, 1e-12); }
 
+/// The hardest spring that the step bears, for a reduced mass; GPa mm.
+double hardest(double m_star, const ContactOptions& o) { return o.dt > 0 ? 0.1 * m_star / (o.dt * o.dt) : 0.0; }
+
 /// The nodes of one side, whatever they belong to.
 struct Nodes {
     const double *x, *y, *z, *vx, *vy, *vz;
     std::int64_t n;
     // per node
-    std::vector<double> radius, area, length, modulus, mass;
+    std::vector<double> radius, area, length, modulus, mass, hard;
     bool oriented = false;                    ///< surface points: they have normals, and touch only walls that face them
     const double *nx = nullptr, *ny = nullptr, *nz = nullptr;
     double *fx, *fy, *fz;
@@ -92,7 +95,7 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         nz /= length;
         const double wx = nodes.vx[i] - vx / t.weights, wy = nodes.vy[i] - vy / t.weights, wz = nodes.vz[i] - vz / t.weights;
         const double approach = wx * nx + wy * ny + wz * nz;
-        const double k = o.stiffness * series(nodes.modulus[i], modulus / t.weights) * nodes.area[i] / nodes.length[i];
+        const double k = o.stiffness * std::max(series(nodes.modulus[i], modulus / t.weights) * nodes.area[i] / nodes.length[i], nodes.hard[i]);
         const double damping = 2 * o.damping * std::sqrt(k * nodes.mass[i]);
         const double force = std::max(k * overlap - damping * approach, 0.0);
         t.fx = force * nx;
@@ -170,7 +173,7 @@ void FluidForces::begin(const FluidBody& body) {
 }
 
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
-    Nodes n{a.x[0].data(), a.x[1].data(), a.x[2].data(), a.v_now[0].data(), a.v_now[1].data(), a.v_now[2].data(), a.size(), {}, {}, {}, {}, {},
+    Nodes n{a.x[0].data(), a.x[1].data(), a.x[2].data(), a.v_now[0].data(), a.v_now[1].data(), a.v_now[2].data(), a.size(), {}, {}, {}, {}, {}, {},
             false, nullptr, nullptr, nullptr, fa.fx.data(), fa.fy.data(), fa.fz.data()};
     for (double kappa : fa.spacing) {
         n.radius.push_back(0.5 * kappa);
@@ -179,14 +182,34 @@ ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions&
     }
     n.modulus = fa.modulus;
     n.mass.assign(a.mass.begin(), a.mass.end());
+    for (double m : a.mass) n.hard.push_back(hardest(m, o));
     return against_wall(n, s, o, z_low, period);
 }
 
 ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
     Nodes n{nodes.x.data(), nodes.y.data(), nodes.z.data(), nodes.vx.data(), nodes.vy.data(), nodes.vz.data(), static_cast<std::int64_t>(nodes.size()),
-            std::vector<double>(nodes.size(), 0.0), nodes.area, nodes.spacing, nodes.modulus, nodes.mass,
+            std::vector<double>(nodes.size(), 0.0), nodes.area, nodes.spacing, nodes.modulus, nodes.mass, std::vector<double>(nodes.size(), 0.0),
             true, nodes.nx.data(), nodes.ny.data(), nodes.nz.data(), nodes.fx.data(), nodes.fy.data(), nodes.fz.data()};
     return against_wall(n, wall, o, z_low, period);
+}
+
+double clearance(const double* ax, const double* ay, const double* az, std::int64_t na, const double* bx, const double* by, const double* bz,
+                 std::int64_t nb, double range, double horizon, double z_low, double period) {
+    const double reach = range + horizon;
+    static CellGrid grid;
+    grid.build(bx, by, bz, nb, 0.5 * reach, reach, z_low, period);
+    const double nearest = -exec::max(na, -reach, [&](std::int64_t n) {
+        double least = reach * reach;
+        grid.ranges(ax[n], ay[n], az[n], reach, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last; ++k) {
+                const std::int64_t j = grid.index(k);
+                const double dx = ax[n] - bx[j], dy = ay[n] - by[j], dz = az[n] - bz[j] - grid.shift(k);
+                least = std::min(least, dx * dx + dy * dy + dz * dz);
+            }
+        });
+        return -std::sqrt(least);
+    });
+    return std::max(0.0, nearest - range);
 }
 
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
@@ -226,12 +249,12 @@ ContactReport node_contact(const FluidBody& a, const FluidBody& b, const Contact
                     const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.f.spacing[i] + other.f.spacing[j]);
                     if (r2 >= d * d || r2 < 1e-24) continue;
                     const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
-                    const double stiffness = o.stiffness * series(me.f.modulus[i], other.f.modulus[j]) * d;
+                    const double m_star = series(p.mass[i], q.mass[j]);
+                    const double stiffness = o.stiffness * std::max(series(me.f.modulus[i], other.f.modulus[j]) * d, hardest(m_star, o));
                     // progressive: k (1 + 3 (overlap/d)^2)
                     const double spring = stiffness * overlap * (1 + 3 * deep * deep);
                     const double vn = ((p.v_now[0][i] - q.v_now[0][j]) * dx + (p.v_now[1][i] - q.v_now[1][j]) * dy +
                                        (p.v_now[2][i] - q.v_now[2][j]) * dz) / r;
-                    const double m_star = series(p.mass[i], q.mass[j]);
                     const double force = std::max(spring - 2 * o.damping * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
                     fx += force * dx;
                     fy += force * dy;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrate/outer_forces.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace brisance {
 
 namespace {
@@ -14,6 +17,10 @@ Vec3<double> total_force(const World<R>& w) {
     for (const SolidPart<R>& s : w.solids)
         for (std::size_t p = 0; p < s.surface.size(); ++p) sum = sum + Vec3<double>{s.surface.fx[p], s.surface.fy[p], s.surface.fz[p]};
     return sum;
+}
+
+double fastest(const double* x, const double* y, const double* z, std::int64_t n) {
+    return std::sqrt(exec::max(n, 0.0, [&](std::int64_t i) { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; }));
 }
 
 }  // namespace
@@ -32,17 +39,42 @@ void outer_forces(World<R>& w) {
             total.where = a + "-" + b;
         }
     };
-    for (const ContactPair& c : w.contacts) {
+    ContactOptions options = w.contact;
+    options.dt = w.options.growth * w.dt_free;
+    // fastest particle of each part: pairs that are far apart need no search until they can have met
+    std::vector<double> fluid_speed, solid_speed;
+    for (const FluidPart& f : w.fluids) fluid_speed.push_back(fastest(f.body.v[0].data(), f.body.v[1].data(), f.body.v[2].data(), f.body.size()));
+    for (const SolidPart<R>& s : w.solids)
+        solid_speed.push_back(fastest(s.surface.vx.data(), s.surface.vy.data(), s.surface.vz.data(), static_cast<std::int64_t>(s.surface.size())));
+    for (ContactPair& c : w.contacts) {
+        const double speed = (c.kind == ContactPair::solid_solid ? solid_speed[c.a] : fluid_speed[c.a]) +
+                             (c.kind == ContactPair::fluid_fluid ? fluid_speed[c.b] : solid_speed[c.b]);
+        c.clear -= w.dt * speed;
+        if (c.clear > 0) continue;
+        constexpr double horizon = 0.5;  // mm
         if (c.kind == ContactPair::fluid_fluid) {
             FluidPart &a = w.fluids[c.a], &b = w.fluids[c.b];
-            add(node_contact(a.body, b.body, w.contact, a.forces, b.forces), a.body.name, b.body.name);
+            const ContactReport r = node_contact(a.body, b.body, options, a.forces, b.forces);
+            add(r, a.body.name, b.body.name);
+            if (r.touching == 0)
+                c.clear = clearance(a.body.x[0].data(), a.body.x[1].data(), a.body.x[2].data(), a.body.size(), b.body.x[0].data(), b.body.x[1].data(),
+                                    b.body.x[2].data(), b.body.size(), 1.2 * std::max(a.forces.largest_spacing, b.forces.largest_spacing), horizon, w.z_low, w.period);
         } else if (c.kind == ContactPair::fluid_solid) {
             FluidPart& a = w.fluids[c.a];
-            SolidPart<R>& b = w.solids[c.b];
-            add(wall_contact(a.body, b.surface, w.contact, w.z_low, w.period, a.forces), a.body.name, b.body.name);
+            Surface& s = w.solids[c.b].surface;
+            const ContactReport r = wall_contact(a.body, s, options, w.z_low, w.period, a.forces);
+            add(r, a.body.name, w.solids[c.b].body.name);
+            if (r.touching == 0)
+                c.clear = clearance(a.body.x[0].data(), a.body.x[1].data(), a.body.x[2].data(), a.body.size(), s.x.data(), s.y.data(), s.z.data(),
+                                    static_cast<std::int64_t>(s.size()), 0.6 * a.forces.largest_spacing + 0.5 * s.reach, horizon, w.z_low, w.period);
         } else {
             SolidPart<R>&a = w.solids[c.a], &b = w.solids[c.b];
-            add(surface_contact(a.surface, b.surface, w.contact, w.z_low, w.period), a.body.name, b.body.name);
+            const ContactReport r = surface_contact(a.surface, b.surface, options, w.z_low, w.period);
+            add(r, a.body.name, b.body.name);
+            if (r.touching == 0)
+                c.clear = clearance(a.surface.x.data(), a.surface.y.data(), a.surface.z.data(), static_cast<std::int64_t>(a.surface.size()), b.surface.x.data(),
+                                    b.surface.y.data(), b.surface.z.data(), static_cast<std::int64_t>(b.surface.size()),
+                                    0.5 * std::max(a.surface.reach, b.surface.reach), horizon, w.z_low, w.period);
         }
     }
     // What comes from here on comes from outside, and its impulse is booked; contact has cancelled.

@@ -51,7 +51,7 @@ void advance(World<R>& w, SolidPart<R>& s, double dt) {
     for (const SolidPlaten& p : s.platens) push(p, s.body, kick_time);
     for (const FixedPlane& p : s.fixed) hold(p, s.body, w.ledger.impulse);
     book_outer_work(w, s, kick_time);
-    drift(s.body, dt);
+    drift(s.body, dt, kick_time);
     s.time += dt;
 }
 
@@ -66,16 +66,10 @@ void respond(World<R>& w, SolidPart<R>& s, double dt) {
 }
 
 void advance(Ledger& ledger, FluidPart& f, double kick_time, double dt) {
-    FluidBody& b = f.body;
-    for (std::size_t i = 0; i < b.mass.size(); ++i) {
-        b.acceleration[0][i] += f.forces.fx[i] / b.mass[i];
-        b.acceleration[1][i] += f.forces.fy[i] / b.mass[i];
-        b.acceleration[2][i] += f.forces.fz[i] / b.mass[i];
-    }
     book_outer_work(ledger, f, kick_time);
-    f.solver.kick(b, kick_time);
+    f.solver.kick(f.body, kick_time, f.forces.fx.data(), f.forces.fy.data(), f.forces.fz.data());
     book_outer_work(ledger, f, kick_time);
-    f.solver.drift(b, dt);
+    f.solver.drift(f.body, dt);
 }
 
 void respond(Ledger& ledger, FluidPart& f, double time, double dt) {

@@ -39,6 +39,7 @@ struct FluidPart {
 struct ContactPair {
     enum Kind { fluid_fluid, fluid_solid, solid_solid } kind;
     std::size_t a, b;
+    double clear = 0;  ///< mm that the two can still close before they must be looked at again
 };
 
 struct StepOptions {

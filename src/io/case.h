@@ -82,7 +82,7 @@ struct ContactData {
     bool all = true;
     std::vector<std::pair<std::string, std::string>> pairs;
     double stiffness = 1.0;   ///< factor on the material stiffness
-    double damping = 0.1;     ///< fraction of critical
+    double damping = 0.05;    ///< fraction of critical
     double friction = 0.0;
 };
 

@@ -173,7 +173,7 @@ Schema make_schema() {
         {.name = "contact", .heading = "[contact]", .meaning = "", .keys = {
             {.name = "pairs", .type = Type::names, .meaning = "pairs of parts that may touch", .fallback = "\"all\""},
             number("stiffness", "1.0", "factor on the stiffness of the materials", positive),
-            number("damping", "0.1", "fraction of critical damping", not_negative),
+            number("damping", "0.05", "fraction of critical damping", not_negative),
             number("friction", "0.0", "Coulomb coefficient; 0: no friction term", not_negative),
         }},
         {.name = "gauge", .heading = "[[gauge]]", .meaning = "", .keys = {

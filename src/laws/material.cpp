@@ -71,13 +71,16 @@ ParameterSet checked(const std::vector<ParameterInfo>& table, const LawData& dat
     return out;
 }
 
-/// c^2 must stay positive where a run can come: from a tenth of volume lost to the tension side, on the cold curve.
-void check_sound_speed(const Material& m, const MaterialData& data) {
+/// c^2 has to be positive on the cold curve until a tenth of the volume is lost; further on, to mu = 0.3, a remark has to do.
+void check_sound_speed(Material& m, const MaterialData& data) {
     for (double mu = 0; mu <= 0.3; mu += 0.001) {
         const double stiffness = m.eos->stiffness(mu, m.eos->initial_energy());
-        if (!(stiffness > 0))
-            throw InputError(fmt::format("{}: equation of state \"{}\" of {} has c^2 < 0 at mu = {:.3f} (rho_0 c^2 = {:.3g} GPa)", data.eos.where,
-                                         data.eos.law, data.name, mu, stiffness));
+        if (stiffness > 0) continue;
+        const std::string what = fmt::format("equation of state \"{}\" of {} has c^2 <= 0 at mu = {:.3f} (rho_0 c^2 = {:.3g} GPa)", data.eos.law,
+                                             data.name, mu, stiffness);
+        if (mu < 1.0 / 9) throw InputError(data.eos.where + ": " + what);
+        m.remarks.push_back("warning: " + what);
+        return;
     }
 }
 

@@ -24,7 +24,7 @@ template <class V> BRISANCE_HD inline Principal<V> principal(const Sym3<V>& a) {
     const V size_of_c = vmin(vabs(c), V{} + R(2));
     V t = R(1.7320508075688773) + R(0.13397459621556135) * size_of_c;  // from sqrt 3 at c = 0 to 2 at c = 2
     for (int i = 0; i < 4; ++i) t = t - (t * (t * t - R(3)) - size_of_c) / (R(3) * (t * t - R(1)));
-    const V apart = size * R(0.86602540378443865) * vsqrt(vmax((R(2) - t) * (R(2) + t), zero));
+    const V apart = vsqrt(R(0.75) * sq(size) * vmax((R(2) - t) * (R(2) + t), zero));
     const auto positive = c >= zero;
     const V sign = positive ? V{} + R(1) : V{} - R(1);
     const V lone = mean + sign * (size * t), centre = mean - sign * (R(0.5) * size * t);

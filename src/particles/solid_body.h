@@ -37,7 +37,8 @@ struct SolidBody {
     Columns layout;
 
     std::array<Array<R>, 3> u, v;   ///< displacement mm, velocity mm/us
-    std::array<Array<R>, 3> v_now, acceleration;  ///< velocity extrapolated to t_n, and what extrapolates it: only with pairwise viscosity
+    // only with pairwise viscosity: velocity extrapolated to t_n, what extrapolates it, and the viscous force per volume
+    std::array<Array<R>, 3> v_now, acceleration, viscous_force;
     std::array<Array<R>, 9> R_sum;  ///< sum w (u_j - u_i) (x) xi = (F - I) K, row-major
     std::array<Array<R>, 9> T;      ///< P K^-1 - a (F - I), GPa: what the stress sum needs (formulations/total_lagrangian/stress.cpp)
     std::array<Array<R>, 6> s;      ///< Cauchy deviator GPa, xx yy zz xy xz yz
@@ -69,7 +70,7 @@ void allocate(SolidBody<R>& b) {
     for (auto* group : {&b.u, &b.v})
         for (auto& a : *group) a.assign(n, R(0));
     if (b.options.pairwise)
-        for (auto* group : {&b.v_now, &b.acceleration})
+        for (auto* group : {&b.v_now, &b.acceleration, &b.viscous_force})
             for (auto& a : *group) a.assign(n, R(0));
     for (auto& a : b.R_sum) a.assign(n, R(0));
     for (auto& a : b.T) a.assign(n, R(0));

@@ -14,7 +14,8 @@ namespace {
 
 template <class V>
 struct Force {
-    V x{}, y{}, z{}, heat{};
+    V x{}, y{}, z{};
+    V vx{}, vy{}, vz{}, heat{};  // the viscous part
 };
 
 template <class V, bool masked, bool viscous, class R>
@@ -79,9 +80,9 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
                 const V xv = vmin(x * dvx + y * dvy + zz * dvz, V{});
                 const V mu = pair.h * xv / (x * x + y * y + zz * zz + R(0.01) * pair.h * pair.h);
                 const V q = weight * (rho * mu * (beta * mu - alpha_c));
-                f.x -= q * x;
-                f.y -= q * y;
-                f.z -= q * zz;
+                f.vx -= q * x;
+                f.vy -= q * y;
+                f.vz -= q * zz;
                 f.heat -= R(0.5) * q * xv;
             }
         }
@@ -108,6 +109,9 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
         f.x *= on;
         f.y *= on;
         f.z *= on;
+        f.vx *= on;
+        f.vy *= on;
+        f.vz *= on;
         f.heat *= on;
     }
     return f;
@@ -127,11 +131,14 @@ double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
         const std::int64_t i = tile.base;
         const Force<V> f = viscous ? (tile.masked ? gather_force<V, true, true>(b, pairs, tile) : gather_force<V, false, true>(b, pairs, tile))
                                    : (tile.masked ? gather_force<V, true, false>(b, pairs, tile) : gather_force<V, false, false>(b, pairs, tile));
-        const V fs[3] = {f.x, f.y, f.z};
+        const V fs[3] = {f.x + f.vx, f.y + f.vy, f.z + f.vz}, viscous_part[3] = {f.vx, f.vy, f.vz};
         for (std::size_t k = 0; k < 3; ++k) {
             const V v = load<V>(b.v[k].data() + i) + scale * fs[k];
             store(b.v[k].data() + i, v);
-            if (viscous) store(b.acceleration[k].data() + i, inverse_density * fs[k]);
+            if (viscous) {
+                store(b.acceleration[k].data() + i, inverse_density * fs[k]);
+                store(b.viscous_force[k].data() + i, viscous_part[k]);
+            }
         }
         if (viscous) {
             const V gained = scale * R(b.material.density) * f.heat;
@@ -148,7 +155,7 @@ double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
 }
 
 template <class R>
-void drift(SolidBody<R>& b, double dt) {
+void drift(SolidBody<R>& b, double dt, double kick) {
     using V = Pack<R>;
     const R step = static_cast<R>(dt);
     exec::for_each(static_cast<std::int64_t>(b.layout.tiles.size()), [&](std::int64_t t) {
@@ -157,12 +164,17 @@ void drift(SolidBody<R>& b, double dt) {
     }, 256);
     fill_images(b.layout, b.u);
     if (!b.options.pairwise) return;
-    // Velocity at the t_n that the drift arrives at: v_n+1/2 + dt/2 a_n. It is renewed here, since neighbours read it during a kick.
-    const R half = static_cast<R>(0.5 * dt);
+    // v_now is renewed only here, since neighbours read it during a kick: v at the t_n that the drift arrives at is v_n+1/2 + dt/2 a_n.
+    const R half = static_cast<R>(0.5 * dt), half_kick = static_cast<R>(0.5 * kick), full_kick = static_cast<R>(kick);
     exec::for_each(static_cast<std::int64_t>(b.layout.tiles.size()), [&](std::int64_t t) {
         const std::int64_t i = b.layout.tiles[static_cast<std::size_t>(t)].base;
-        for (std::size_t k = 0; k < 3; ++k)
-            store(b.v_now[k].data() + i, load<V>(b.v[k].data() + i) + half * load<V>(b.acceleration[k].data() + i));
+        V missed{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const V v = load<V>(b.v[k].data() + i), a = load<V>(b.acceleration[k].data() + i), mean = v - half_kick * a;
+            missed += load<V>(b.viscous_force[k].data() + i) * (mean - load<V>(b.v_now[k].data() + i));
+            store(b.v_now[k].data() + i, v + half * a);
+        }
+        store(b.energy.data() + i, load<V>(b.energy.data() + i) - full_kick * missed);
     }, 256);
     fill_images(b.layout, b.v_now);
 }
@@ -197,8 +209,8 @@ BodySums sums(const SolidBody<R>& b) {
 
 template double kick(SolidBody<double>&, const ColumnPairs<double>&, double);
 template double kick(SolidBody<float>&, const ColumnPairs<float>&, double);
-template void drift(SolidBody<double>&, double);
-template void drift(SolidBody<float>&, double);
+template void drift(SolidBody<double>&, double, double);
+template void drift(SolidBody<float>&, double, double);
 template BodySums sums(const SolidBody<double>&);
 template BodySums sums(const SolidBody<float>&);
 

@@ -36,9 +36,10 @@ StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time
 template <class R>
 double kick(SolidBody<R>& body, const ColumnPairs<R>& pairs, double kick);
 
-/// x += dt v.
+/// x += dt v, `kick` being the kick just done. With pairwise viscosity the heat was taken with velocities extrapolated to t_n, while the
+/// force worked with the mean of before and after the kick: the difference goes into `energy` here, so the balance is exact.
 template <class R>
-void drift(SolidBody<R>& body, double dt);
+void drift(SolidBody<R>& body, double dt, double kick);
 
 /// Kinetic energy sum m v^2/2 and momentum sum m v, of v as it stands; internal energy (J).
 struct BodySums {

@@ -187,13 +187,20 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     return total.p;
 }
 
-void FluidSolver::kick(FluidBody& b, double kick) {
+void FluidSolver::kick(FluidBody& b, double kick, const double* fx, const double* fy, const double* fz) {
     exec::for_each(b.size(), [&](std::int64_t k) {
         const auto i = static_cast<std::size_t>(k);
-        for (std::size_t a = 0; a < 3; ++a) b.v[a][i] += kick * b.acceleration[a][i];
+        const double outer[3] = {fx[i] / b.mass[i], fy[i] / b.mass[i], fz[i] / b.mass[i]};
+        double missed = 0;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double inner = b.acceleration[a][i], before = b.v[a][i];
+            b.acceleration[a][i] += outer[a];
+            b.v[a][i] += kick * b.acceleration[a][i];
+            missed += inner * (0.5 * (before + b.v[a][i]) - b.v_now[a][i]);
+        }
         const double growth = std::clamp(kick * b.rho_rate[i], -1.0, 1.0);
         b.rho[i] *= (1 + 0.5 * growth) / (1 - 0.5 * growth);
-        b.e[i] += kick * b.e_rate[i];
+        b.e[i] += kick * (b.e_rate[i] - missed);
     }, 1024);
 }
 

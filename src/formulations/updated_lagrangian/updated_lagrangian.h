@@ -33,8 +33,10 @@ public:
     /// Returns the viscous power and the power of the artificial stress, W = J/us.
     struct Powers { double viscous = 0, artificial = 0; };
     Powers rates(FluidBody& body);
-    /// v, rho, e over a kick. Contact has added to `acceleration` in between where it acts.
-    void kick(FluidBody& body, double kick);
+    /// v, rho, e over a kick, with the outer forces (mN) on each particle. The heat of a pair was taken with velocities extrapolated to
+    /// t_n; what its force did was with the mean of before and after the kick. The difference, f_i.(v_mean - v_now), goes back into e_i,
+    /// so that kinetic and internal energy together change by the work of the outer forces alone, to round-off.
+    void kick(FluidBody& body, double kick, const double* fx, const double* fy, const double* fz);
     /// x, and the extrapolation to the next t_n.
     void drift(FluidBody& body, double dt);
     /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us.

@@ -12,6 +12,7 @@
 // Order of the damage step. When damage grows, the deviator is taken down to the surface of the *new* damage inside the step, and
 // that drop is not plastic strain: its energy feeds the bulking. Counting it as plastic strain in the next step, as several public
 // codes do, makes damage snap through and misses the curves of the 1994 paper (tests/unit/jh2_test.cpp shows both).
+#include "base/error.h"
 #include "laws/strength.h"
 #include "math/power.h"
 
@@ -53,20 +54,24 @@ struct Jh2 {
         : G(p.at("G").value), A(p.at("A").value), B(p.at("B").value), C(p.at("C").value), M(p.at("M").value), N(p.at("N").value),
           eps0(p.at("EPS0").value), T(p.at("T").value), sfmax(p.at("SFMAX").value > 0 ? p.at("SFMAX").value : 1e20),
           hel(p.at("HEL").value), beta(p.at("BETA").value), D1(p.at("D1").value), D2(p.at("D2").value), K1(eos.bulk_modulus()) {
-        phel_of_eos = pressure_at_hel(eos);
+        phel_of_eos = pressure_at_hel(eos, p.at("HEL"));
         phel = p.at("PHEL").value > 0 ? p.at("PHEL").value : phel_of_eos;
         shel = p.at("SHEL").value > 0 ? p.at("SHEL").value : 1.5 * (hel - phel);
+        if (!(shel > 0))
+            throw InputError(fmt::format("{}: PHEL = {} is not below HEL = {}: the strength at the HEL, 1.5 (HEL - PHEL), would not be positive",
+                                         p.at("PHEL").where, p.at("PHEL").text, p.at("HEL").text));
     }
     double shear_modulus() const { return G; }
 
     /// PHEL from HEL = P(mu) + 4/3 G mu/(1+mu), the smallest positive root (bracket scan, then bisection).
-    double pressure_at_hel(const Eos& eos) const {
+    double pressure_at_hel(const Eos& eos, const ParameterValue& given) const {
         const auto excess = [&](double mu) { return eos.pressure(mu, 0) + 4.0 / 3.0 * G * mu / (1 + mu) - hel; };
         double low = 0, high = 1e-4;
         while (excess(high) < 0 && high < 10) {
             low = high;
             high += 1e-4;
         }
+        if (excess(high) < 0) throw InputError(fmt::format("{}: HEL = {} is not reached below mu = 10", given.where, given.text));
         for (int i = 0; i < 80; ++i) {
             const double mid = 0.5 * (low + high);
             (excess(mid) < 0 ? low : high) = mid;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Johnson-Cook:  sigma_y = (A + B eps_p^n) (1 + C ln max(rate/EPS0, 1)) (1 - theta^m),  theta = (T - T_room)/(T_melt - T_room) in [0, 1].
 // Radial return by bisection-guarded Newton on  s_eq - 3 G de - sigma_y(eps_p + de) = 0;  the rate is the total deviatoric one of the step.
-// Heating: dT = chi sigma_y de / (rho_0 c_v). Damage D1..D5 as in Johnson & Cook 1985; off where D1..D5 are all zero.
+// Heating: dT = chi sigma_y de / (rho_0 c_v), sigma_y the mean over the step. Damage D1..D5 as in Johnson & Cook 1985; off where D1..D5 are
+// all zero. A failure strain that is not positive fails at once.
+#include "base/error.h"
 #include "laws/strength.h"
 #include "math/power.h"
+
+#include <fmt/format.h>
 
 namespace brisance {
 namespace {
@@ -38,7 +42,17 @@ struct JohnsonCook {
         : G(p.at("G").value), A(p.at("A").value), B(p.at("B").value), n(p.at("n").value), C(p.at("C").value), m(p.at("m").value),
           eps0(p.at("EPS0").value), t_span(p.at("T_melt").value - p.at("T_room").value), heat(p.at("chi").value / (density * p.at("c_v").value)),
           damages(p.at("damage").value > 0) {
-        for (int i = 0; i < 5; ++i) d[i] = p.at("D" + std::to_string(i + 1)).value;
+        if (!(t_span > 0))
+            throw InputError(fmt::format("{}: T_melt = {} is not above T_room = {}", p.at("T_melt").where, p.at("T_melt").text, p.at("T_room").text));
+        if (n == 0) {  // eps^0 = 1 also at eps = 0
+            A += B;
+            B = 0;
+            n = 1;
+        }
+        for (int i = 0; i < 5; ++i) {
+            d[i] = p.at("D" + std::to_string(i + 1)).value;
+            counts_damage = counts_damage || d[i] != 0;
+        }
     }
     double shear_modulus() const { return G; }
 
@@ -53,29 +67,37 @@ struct JohnsonCook {
         const V rate = one + R(C) * log_rate;
         const V theta = clamp(heating / R(t_span), zero, one);
         const V soft = rate * (one - power(theta, R(m))) * s_intact;
-        // g(de) = s_eq - 3 G de - Y(eps + de) falls; its root lies in [0, s_eq/(3G)].
-        V low = zero, high = s_eq / R(3 * G);
-        const V y0 = (R(A) + R(B) * power(eps, R(n))) * soft;
-        V de = vmax(s_eq - y0, zero) / R(3 * G);
-        for (int it = 0; it < 8; ++it) {
-            const V strain = vmax(eps + de, broadcast<V>(R(1e-12)));
-            const V hardening = R(B) * power(strain, R(n)) * soft;
-            const V g = s_eq - R(3 * G) * de - (R(A) * soft + hardening);
+        const V a = R(A) * soft, b = R(B) * soft, before = power(eps, R(n));
+        const V y0 = a + b * before;
+        // g(de) = s_eq - 3 G de - a - b (eps + de)^n falls from over > 0 at 0 to g <= 0 at over/(3G). Newton's method is monotone from the
+        // side on which g is steep. n >= 1: the right end. n < 1: below the root, where b (eps + de)^n grows at most by b n eps^(n-1) de
+        // and by b de^n; near eps = 0 the right end would be off by orders of magnitude.
+        const V tiny = broadcast<V>(detail::FloatLayout<R>::tiny);
+        const V over = vmax(s_eq - y0, zero);
+        V low = zero, high = over / R(3 * G), de = high;
+        if (n < 1) {
+            const V by_slope = (eps > zero) ? over / (R(3 * G) + R(n) * b * before / vmax(eps, tiny)) : zero;
+            const V by_power = power(over / vmax(b + b, broadcast<V>(R(1e-30))), R(1 / n));
+            de = vmax(by_slope, vmin(R(0.5) * high, by_power));
+        }
+        for (int it = 0; it < 12; ++it) {
+            const V strain = eps + de, hardening = b * power(strain, R(n));
+            const V g = s_eq - R(3 * G) * de - (a + hardening);
             low = (g > zero) ? de : low;
             high = (g > zero) ? high : de;
-            const V next = de + g / (R(3 * G) + R(n) * hardening / strain);
+            const V next = de + g / (R(3 * G) + R(n) * hardening / vmax(strain, tiny));
             const V middle = R(0.5) * (low + high);
-            de = (next > low) ? ((next < high) ? next : middle) : middle;
+            de = (next >= low) ? ((next <= high) ? next : middle) : middle;
         }
         de = (s_eq > y0) ? de : zero;
         const V y = vmax(s_eq - R(3 * G) * de, zero);
         p.s = scaled(trial, (s_eq > y0) ? y / vmax(s_eq, broadcast<V>(R(1e-30))) : one);
         p.state[1] = eps + de;
-        p.state[2] = heating + R(heat) * y * de;
+        p.state[2] = heating + R(0.5 * heat) * (vmin(y0, s_eq) + y) * de;
         const V triaxiality = clamp(-p.pressure / vmax(y, broadcast<V>(R(1e-6))), broadcast<V>(R(-1.5)), broadcast<V>(R(1.5)));
         const V eps_f = (R(d[0]) + R(d[1]) * exponential(R(d[2]) * triaxiality)) * (one + R(d[3]) * log_rate) *
                         (one + R(d[4]) * theta);
-        p.state[0] = (eps_f > zero) ? vmin(damage + de / vmax(eps_f, broadcast<V>(R(1e-6))), one) : damage;
+        p.state[0] = counts_damage ? vmin(damage + de / vmax(eps_f, broadcast<V>(R(1e-6))), one) : damage;
         p.yield = y0;
         p.shear_stiffness = broadcast<V>(R(4.0 / 3.0 * G));
         // A full elastic zero-energy spring would lock plastic flow: beyond a small plastic strain it is kept at a tenth.
@@ -83,7 +105,7 @@ struct JohnsonCook {
     }
 
     double G, A, B, n, C, m, eps0, t_span, heat;
-    bool damages;
+    bool damages, counts_damage = false;
     double d[5];
 };
 

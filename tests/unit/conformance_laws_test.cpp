@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every registered strength law has to obey, whatever its name, with every material of the library that uses it; and what the
+// parameter table of every law, strength and equation of state, has to say and to refuse.
+#include "law_helpers.h"
+
+#include <rapidcheck.h>
+
+#include <set>
+
+using namespace brisance;
+using namespace brisance::law_test;
+
+namespace {
+
+constexpr double slow = 1e12;  ///< us; so long a step that no rate term acts
+
+template <class F> void for_every_strength(const F& f) {
+    for (const StrengthEntry& entry : strength_entries())
+        for (const MaterialData& data : users_of(entry)) {
+            SCOPED_TRACE(entry.name + " of " + data.name);
+            f(make_material(data));
+        }
+}
+/// All materials with a strength law, for the random tests.
+const std::vector<Material>& solids() {
+    static const std::vector<Material> all = [] {
+        std::vector<Material> v;
+        for (const StrengthEntry& entry : strength_entries())
+            for (const Material& m : materials_of(users_of(entry))) v.push_back(m);
+        return v;
+    }();
+    return all;
+}
+
+/// A random state that a run can reach: strained from rest in a few steps.
+SolidPoint<double> reached(const Material& m, Random& random, double size, double dt) {
+    SolidPoint<double> p = at_rest(m, dt);
+    Sym total{};
+    for (int i = 0; i < 4; ++i) {
+        const Sym d = random.sym(size);
+        total = total + d;
+        step(m, p, d, std::exp(-trace(total)) - 1);
+    }
+    return p;
+}
+std::vector<double> everything(const Material& m, const SolidPoint<double>& p) {
+    std::vector<double> v{p.pressure, p.yield, p.shear_stiffness, p.integrity};
+    for (const double x : components(p.s)) v.push_back(x);
+    for (std::size_t i = 0; i < m.strength->state().size(); ++i) v.push_back(p.state[i]);
+    return v;
+}
+
+template <class V> void set_lane(V& v, int l, double x) {
+    const auto r = static_cast<ScalarOf<V>>(x);
+    std::memcpy(reinterpret_cast<char*>(&v) + static_cast<std::size_t>(l) * sizeof(r), &r, sizeof(r));
+}
+template <class V, class F> void for_each_field(SolidPoint<V>& p, const F& f) {
+    for (V* x : {&p.d.xx, &p.d.yy, &p.d.zz, &p.d.xy, &p.d.xz, &p.d.yz, &p.s.xx, &p.s.yy, &p.s.zz, &p.s.xy, &p.s.xz, &p.s.yz, &p.mu, &p.pressure, &p.energy,
+                 &p.dt, &p.scale, &p.yield, &p.shear_stiffness, &p.integrity})
+        f(*x);
+    for (V& x : p.state) f(x);
+}
+template <class V> SolidPoint<V> packed(const std::vector<SolidPoint<double>>& points) {
+    SolidPoint<V> out{};
+    for (int l = 0; l < lanes_of<V>; ++l) {
+        SolidPoint<double> one = points[static_cast<std::size_t>(l) % points.size()];
+        std::vector<double> values;
+        for_each_field(one, [&](double& x) { values.push_back(x); });
+        std::size_t i = 0;
+        for_each_field(out, [&](V& v) { set_lane(v, l, values[i++]); });
+    }
+    return out;
+}
+template <class V> std::vector<double> lane_values(SolidPoint<V>& p, int l) {
+    std::vector<double> values;
+    for_each_field(p, [&](V& v) { values.push_back(static_cast<double>(lane(v, l))); });
+    return values;
+}
+
+/// A polygon of strains from rest back to rest.
+std::vector<Sym> closed_cycle(Random& random, int corners, double deviatoric, double volumetric) {
+    std::vector<Sym> path{{}};
+    for (int i = 0; i < corners; ++i) {
+        const double v = random.uniform(-volumetric, volumetric) / 3;
+        path.push_back(deviator(random.sym(deviatoric)) + Sym{v, v, v, 0, 0, 0});
+    }
+    path.push_back({});
+    return path;
+}
+
+std::uint64_t any_seed() { return *rc::gen::arbitrary<std::uint64_t>(); }
+
+}  // namespace
+
+// ---- tables
+
+template <class Entry> void check_table(const Entry& entry) {
+    SCOPED_TRACE(entry.name);
+    EXPECT_TRUE(std::regex_match(entry.name, std::regex("[a-z][a-z0-9_]*")));
+    EXPECT_FALSE(entry.meaning.empty());
+    EXPECT_FALSE(entry.parameters.empty());
+    std::set<std::string> names;
+    for (const ParameterInfo& row : entry.parameters) {
+        EXPECT_TRUE(std::regex_match(row.name, std::regex("[A-Za-z][A-Za-z0-9_]*"))) << row.name;
+        EXPECT_TRUE(names.insert(row.name).second) << row.name << " stands there twice";
+        EXPECT_FALSE(row.meaning.empty()) << row.name;
+        EXPECT_FALSE(dimension_name(row.dimension).empty()) << row.name;
+        EXPECT_FALSE(dimension_example(row.dimension).empty()) << row.name;
+        EXPECT_TRUE(std::isfinite(row.min) && std::isfinite(row.max)) << row.name << " has no range";
+        EXPECT_LE(row.min, row.max) << row.name;
+        if (row.fallback) {
+            EXPECT_TRUE(*row.fallback >= row.min && *row.fallback <= row.max) << row.name;
+        }
+    }
+}
+
+TEST(LawTables, SayNameDimensionMeaningAndRange) {
+    for (const EosEntry& entry : eos_entries()) check_table(entry);
+    for (const StrengthEntry& entry : strength_entries()) {
+        check_table(entry);
+        SCOPED_TRACE(entry.name);
+        EXPECT_LE(entry.state.size(), static_cast<std::size_t>(max_law_state));
+        std::set<std::string> names;
+        for (const StateInfo& row : entry.state) {
+            EXPECT_TRUE(names.insert(row.name).second) << row.name;
+            EXPECT_FALSE(row.name.empty() || row.unit.empty() || row.meaning.empty()) << row.name;
+            EXPECT_TRUE(std::isfinite(row.initial));
+        }
+        // the passes over a body read damage in the first column
+        const int damage = column(entry.state, "damage");
+        EXPECT_TRUE(damage <= 0) << "damage stands first";
+    }
+    EXPECT_FALSE(burn_parameters().empty());
+}
+
+template <class Entry, class Part> void check_refusals(const Entry& entry, const Part& part) {
+    SCOPED_TRACE(entry.name);
+    const MaterialData good = users_of(entry).front();
+    ASSERT_EQ(refusal(good), "no error");
+    for (const ParameterInfo& row : entry.parameters) {
+        if (row.name == "density") continue;  // the material's
+        SCOPED_TRACE(row.name);
+        MaterialData data = good;
+        part(data).parameters.erase(row.name);
+        if (!row.fallback) {
+            const std::string message = refusal(data);
+            EXPECT_EQ(message.find(part(good).where), 0u) << message;
+            EXPECT_TRUE(names_a_place(message) && says(message, row.name) && says(message, row.meaning)) << message;
+        } else {
+            EXPECT_EQ(refusal(data), "no error");
+        }
+        const auto with = [&](double value, Dimension dimension) {
+            MaterialData bad = good;
+            bad.name = "bad";
+            part(bad).parameters[row.name] = {value, dimension, "<as written>", "test", "c", "bad.toml:42:7"};
+            return refusal(bad);
+        };
+        for (const double value : {row.max + 1 + 0.01 * std::abs(row.max), row.min - 1 - 0.01 * std::abs(row.min), std::nan("")}) {
+            const std::string message = with(value, row.dimension);
+            EXPECT_EQ(message.find("bad.toml:42:7"), 0u) << message;
+            EXPECT_TRUE(says(message, row.name) && says(message, "<as written>") && says(message, "outside of")) << message;
+        }
+        const double inside = 0.5 * (std::max(row.min, -1e3) + std::min(row.max, 1e3));
+        const std::string message = with(inside, row.dimension == dimension::mass ? dimension::length : dimension::mass);
+        EXPECT_EQ(message.find("bad.toml:42:7"), 0u) << message;
+        EXPECT_TRUE(says(message, row.name) && says(message, dimension_name(row.dimension)) && says(message, dimension_example(row.dimension))) << message;
+    }
+    MaterialData data = good;
+    part(data).parameters["no_such"] = {1, dimension::none, "1", "test", "c", "bad.toml:43:1"};
+    const std::string message = refusal(data);
+    EXPECT_EQ(message.find("bad.toml:43:1"), 0u) << message;
+    EXPECT_TRUE(says(message, "no_such") && says(message, entry.parameters.back().name)) << message;
+}
+
+TEST(LawTables, RefuseMissingUnknownAndOutOfRangeWithTheirPlace) {
+    for (const EosEntry& entry : eos_entries()) check_refusals(entry, [](auto& data) -> auto& { return data.eos; });
+    for (const StrengthEntry& entry : strength_entries()) check_refusals(entry, [](auto& data) -> auto& { return *data.strength; });
+}
+
+// ---- behaviour
+
+TEST(EveryStrength, SmallStrainGivesHooke) {
+    for_every_strength([](const Material& m) {
+        Random random(1);
+        const double G = m.strength->shear_modulus();
+        EXPECT_GT(G, 0);
+        for (int i = 0; i < 20; ++i) {
+            const Sym d = random.sym(1e-6);
+            SolidPoint<double> p = at_rest(m, slow);
+            const SolidPoint<double> before = p;
+            step(m, p, d, std::exp(-trace(d)) - 1);
+            EXPECT_LT(norm(p.s - (2 * G) * deviator(d)), 1e-14 * 2 * G * 1e-6);
+            EXPECT_DOUBLE_EQ(p.shear_stiffness, 4.0 / 3 * G);
+            EXPECT_EQ(p.pressure, m.eos->pressure(p.mu, p.energy));
+            EXPECT_GT(p.yield, mises(p.s));
+            EXPECT_EQ(p.integrity, 1);
+            for (std::size_t k = 0; k < m.strength->state().size(); ++k) EXPECT_EQ(p.state[k], before.state[k]);
+        }
+    });
+}
+
+TEST(EveryStrength, StressStaysADeviatorAndGrowsOnlyByStrain) {
+    for_every_strength([](const Material& m) {
+        Random random(2);
+        for (int i = 0; i < 300; ++i) {
+            SolidPoint<double> p = reached(m, random, random.decades(1e-5, 1e-2), 1);
+            EXPECT_NEAR(trace(p.s), 0, 1e-12 * (norm(p.s) + 1e-3));
+            const double borne = mises(p.s);
+            step(m, p, {}, p.mu);
+            EXPECT_LE(mises(p.s), borne * (1 + 1e-12)) << "without strain nothing is added";
+        }
+    });
+}
+
+TEST(EveryStrength, RotatedInputGivesRotatedOutput) {
+    for_every_strength([](const Material& m) {
+        Random random(3);
+        for (int i = 0; i < 200; ++i) {
+            const double size = random.decades(1e-5, 3e-2);
+            SolidPoint<double> p = reached(m, random, size, 1), r = p;
+            const Mat3<double> q = random.rotation();
+            const Sym d = random.sym(size);
+            r.s = rotated(q, p.s);
+            const double mu = random.uniform(-0.005, 0.05);
+            step(m, p, d, mu);
+            step(m, r, rotated(q, d), mu);
+            const double scale = norm(p.s) + 2 * m.strength->shear_modulus() * size;
+            EXPECT_LT(norm(r.s - rotated(q, p.s)), 1e-11 * scale);
+            EXPECT_NEAR(r.pressure, p.pressure, 1e-13 * m.bulk_modulus());
+            EXPECT_NEAR(r.yield, p.yield, 1e-11 * p.yield);
+            for (std::size_t k = 0; k < m.strength->state().size(); ++k) EXPECT_NEAR(r.state[k], p.state[k], 1e-9 * (1 + std::abs(p.state[k])));
+        }
+    });
+}
+
+TEST(EveryStrength, YieldingTwiceChangesNothing) {
+    // Slow steps: no rate term. What a step leaves for the next one (heat, damage) softens by less than a part of the strain increment.
+    for_every_strength([](const Material& m) {
+        Random random(4);
+        for (int i = 0; i < 200; ++i) {
+            const double size = random.decades(1e-5, 3e-3);
+            SolidPoint<double> p = reached(m, random, size, slow);
+            const SolidPoint<double> once = p;
+            step(m, p, {}, p.mu);
+            EXPECT_LE(norm(p.s - once.s), (1e-12 + 0.3 * size) * norm(once.s)) << size;
+            const int plastic = column(m.strength->state(), "plastic_strain"), damage = column(m.strength->state(), "damage");
+            if (plastic >= 0) {
+                EXPECT_NEAR(p.state[plastic], once.state[plastic], 1e-3 * size);
+            }
+            if (damage >= 0) {
+                EXPECT_NEAR(p.state[damage], once.state[damage], 1e-2 * size);
+            }
+            // and what is left dies out
+            for (int k = 0; k < 3; ++k) step(m, p, {}, p.mu);
+            const SolidPoint<double> settled = p;
+            step(m, p, {}, p.mu);
+            EXPECT_LE(norm(p.s - settled.s), 1e-9 * norm(once.s));
+        }
+    });
+}
+
+TEST(EveryStrength, DamageIsAFractionAndNeverFalls) {
+    EXPECT_TRUE(rc::check("0 <= damage <= 1, never falling, along random paths", [] {
+        Random random(any_seed());
+        const Material& m = solids()[static_cast<std::size_t>(random.uniform(0, 0.9999999) * static_cast<double>(solids().size()))];
+        const int damage = column(m.strength->state(), "damage"), plastic = column(m.strength->state(), "plastic_strain");
+        SolidPoint<double> p = at_rest(m, random.decades(1e-3, 1e6));
+        p.scale = random.uniform(0.3, 2);
+        Sym total{};
+        const double size = random.decades(1e-5, 2e-2);
+        for (int i = 0; i < 200; ++i) {
+            const Sym d = random.sym(size);
+            total = total + d;
+            const SolidPoint<double> before = p;
+            step(m, p, d, std::exp(-trace(total)) - 1);
+            if (damage >= 0) RC_ASSERT(p.state[damage] >= before.state[damage] && p.state[damage] >= 0 && p.state[damage] <= 1);
+            if (plastic >= 0) RC_ASSERT(p.state[plastic] >= before.state[plastic]);
+            RC_ASSERT(p.integrity >= 0 && p.integrity <= 1);
+            RC_ASSERT(p.yield >= 0);
+            for (const double x : everything(m, p)) RC_ASSERT(std::isfinite(x));
+        }
+    }));
+}
+
+TEST(EveryStrength, AClosedCycleOfStrainCostsWork) {
+    // Work of the stress deviator over a cycle that starts without stress: what is stored at its end plus what was dissipated. And total
+    // work per initial volume, pressure included, whose equation of state gives back all that it took (constant energy).
+    EXPECT_TRUE(rc::check("work over closed cycles is not negative", [] {
+        Random random(any_seed());
+        const Material& m = solids()[static_cast<std::size_t>(random.uniform(0, 0.9999999) * static_cast<double>(solids().size()))];
+        SolidPoint<double> p = at_rest(m, slow);
+        const double size = random.decades(1e-4, 3e-2);
+        const std::vector<Sym> path = closed_cycle(random, 4, size, random.uniform(0, 0.5) * size);
+        const int n = 400;
+        double shear_work = 0, work = 0, largest = 0;
+        for (int repeat = 0; repeat < 2; ++repeat)
+            for (std::size_t leg = 1; leg < path.size(); ++leg)
+                for (int i = 1; i <= n; ++i) {
+                    const Sym d = (1.0 / n) * (path[leg] - path[leg - 1]);
+                    const double strain = trace(path[leg - 1]) + trace(path[leg] - path[leg - 1]) * i / n;
+                    const SolidPoint<double> before = p;
+                    step(m, p, d, std::exp(-strain) - 1);
+                    const double v = 1 / (1 + p.mu), v_before = 1 / (1 + before.mu);
+                    const double dw = 0.5 * (v + v_before) * 0.5 * ddot(p.s + before.s, deviator(d));
+                    shear_work += dw;
+                    work += dw - 0.5 * (p.pressure + before.pressure) * (v - v_before);
+                    largest = std::max(largest, std::abs(work));
+                }
+        RC_ASSERT(shear_work >= -1e-6 * largest);
+        RC_ASSERT(work >= -1e-3 * largest);
+    }));
+}
+
+TEST(EveryStrength, NoNanForHugeIncrements) {
+    for_every_strength([](const Material& m) {
+        Random random(5);
+        for (int i = 0; i < 400; ++i) {
+            std::vector<SolidPoint<double>> points;
+            for (int l = 0; l < lanes<float>; ++l) {
+                SolidPoint<double> p = at_rest(m, random.decades(1e-6, 1e6));
+                p.scale = random.uniform(0.1, 3);
+                const double size = random.decades(1e-3, 1e3);
+                p.s = deviator(random.sym(random.decades(1e-6, 1e3)));
+                p.d = random.sym(size);
+                p.mu = random.decades(1e-3, 20) - 0.95;
+                p.pressure = m.eos->pressure(p.mu, p.energy);
+                const int damage = column(m.strength->state(), "damage"), plastic = column(m.strength->state(), "plastic_strain");
+                if (damage >= 0) p.state[damage] = i % 3 ? random.uniform(0, 1) : i % 2;
+                if (plastic >= 0) p.state[plastic] = i % 2 ? 0 : random.decades(1e-12, 1e2);
+                points.push_back(p);
+            }
+            SolidPoint<Pack<float>> f = packed<Pack<float>>(points);
+            m.strength->update(f);
+            for (int l = 0; l < lanes<float>; ++l)
+                for (const double x : lane_values(f, l)) ASSERT_TRUE(std::isfinite(x));
+            for (SolidPoint<double>& p : points) {
+                m.strength->update(p);
+                for (const double x : everything(m, p)) ASSERT_TRUE(std::isfinite(x));
+                const int damage = column(m.strength->state(), "damage");
+                if (damage >= 0) {
+                    ASSERT_TRUE(p.state[damage] >= 0 && p.state[damage] <= 1);
+                }
+            }
+        }
+    });
+}
+
+TEST(EveryStrength, PackGivesTheBitsOfThePoint) {
+    for_every_strength([](const Material& m) {
+        Random random(6);
+        for (int i = 0; i < 200; ++i) {
+            std::vector<SolidPoint<double>> points;
+            for (int l = 0; l < lanes<double>; ++l) {
+                const double size = random.decades(1e-6, 3e-2);
+                SolidPoint<double> p = reached(m, random, size, random.decades(1e-3, 1e3));
+                p.scale = random.uniform(0.5, 1.5);
+                p.d = random.sym(size);
+                p.mu = random.uniform(-0.01, 0.05);
+                p.pressure = m.eos->pressure(p.mu, p.energy);
+                points.push_back(p);
+            }
+            SolidPoint<Pack<double>> batch = packed<Pack<double>>(points);
+            m.strength->update(batch);
+            for (int l = 0; l < lanes<double>; ++l) {
+                SolidPoint<double>& p = points[static_cast<std::size_t>(l)];
+                m.strength->update(p);
+                const std::vector<double> got = lane_values(batch, l);
+                std::vector<double> want;
+                for_each_field(p, [&](double& x) { want.push_back(x); });
+                for (std::size_t k = 0; k < want.size(); ++k) ASSERT_TRUE(same_bits(got[k], want[k])) << "field " << k << ": " << got[k] << " - " << want[k] << " = " << got[k] - want[k];
+            }
+        }
+    });
+}
+
+TEST(EveryStrength, SinglePrecisionFollowsDoubleInEveryLane) {
+    for_every_strength([](const Material& m) {
+        Random random(7);
+        const double G = m.strength->shear_modulus();
+        for (int i = 0; i < 100; ++i) {
+            const double size = random.decades(1e-5, 1e-2);
+            SolidPoint<double> p = at_rest(m, 1);
+            p.d = random.sym(size);
+            p.mu = random.uniform(0.002, 0.03);
+            p.pressure = m.eos->pressure(p.mu, p.energy);
+            SolidPoint<Pack<float>> f = packed<Pack<float>>({p});
+            m.strength->update(f);
+            m.strength->update(p);
+            const std::vector<double> first = lane_values(f, 0);
+            for (int l = 1; l < lanes<float>; ++l) EXPECT_EQ(lane_values(f, l), first) << "lanes do not know each other";
+            EXPECT_NEAR(first[6], p.s.xx, 1e-5 * (2 * G * size + mises(p.s)));
+            EXPECT_NEAR(first[9], p.s.xy, 1e-5 * (2 * G * size + mises(p.s)));
+            EXPECT_NEAR(first[13], p.pressure, 1e-5 * m.bulk_modulus());
+        }
+    });
+}
