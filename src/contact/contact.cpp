@@ -35,20 +35,51 @@ struct Touch {
 inline double weight(const Surface& s, std::size_t j, double px, double py, double pz, double radius, double& gap) {
     const double dx = px - s.x[j], dy = py - s.y[j], dz = pz - s.z[j];
     gap = dx * s.nx[j] + dy * s.ny[j] + dz * s.nz[j];
-    if (gap > radius + s.spacing[j] || gap < -s.depth) return 0;
+    if (gap > radius + s.spacing[j] || gap < -s.depth[j]) return 0;
     const double tx = dx - gap * s.nx[j], ty = dy - gap * s.ny[j], tz = dz - gap * s.nz[j];
     const double q2 = (tx * tx + ty * ty) / (s.spacing[j] * s.spacing[j]) + tz * tz / (s.dz[j] * s.dz[j]);
     return q2 < 4 ? s.area[j] * kernel::shape(std::sqrt(q2)) : 0.0;
 }
 
+/// The points of a wall inside the box of the nodes, widened by what they reach.
+std::vector<std::int32_t> points_near(const Nodes& nodes, const Surface& wall, double radius) {
+    double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+    for (std::int64_t i = 0; i < nodes.n; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const double p = k == 0 ? nodes.x[i] : nodes.y[i];
+            low[k] = std::min(low[k], p);
+            high[k] = std::max(high[k], p);
+        }
+    std::vector<std::int32_t> active;
+    for (std::size_t j = 0; j < wall.size(); ++j) {
+        const double margin = radius + wall.depth[j] + 2 * wall.spacing[j];
+        if (wall.x[j] > low[0] - margin && wall.x[j] < high[0] + margin && wall.y[j] > low[1] - margin && wall.y[j] < high[1] + margin)
+            active.push_back(static_cast<std::int32_t>(j));
+    }
+    return active;
+}
+
 ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
     double radius = 0;
     for (double r : nodes.radius) radius = std::max(radius, r);
+    // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
+    const std::vector<std::int32_t> active = points_near(nodes, wall, radius);
+    if (active.empty()) return {};
+    double coarsest = 0, deepest = 0;
+    std::vector<double> wx, wy, wz;
+    for (std::int32_t j : active) {
+        const auto p = static_cast<std::size_t>(j);
+        coarsest = std::max({coarsest, wall.spacing[p], wall.dz[p]});
+        deepest = std::max(deepest, wall.depth[p]);
+        wx.push_back(wall.x[p]);
+        wy.push_back(wall.y[p]);
+        wz.push_back(wall.z[p]);
+    }
     // tangential reach, and how far in front of or behind the wall a node can be
-    const double reach = wall.reach + std::max(wall.depth, radius + 0.5 * wall.reach);
-    const double near = std::max(wall.depth, radius) + 0.5 * wall.reach;
+    const double reach = 2 * coarsest + std::max(deepest, radius + coarsest);
+    const double near = std::max(deepest, radius) + coarsest;
     static CellGrid walls, points;  // kept between steps for their memory; contact is not re-entrant
-    walls.build(wall.x.data(), wall.y.data(), wall.z.data(), static_cast<std::int64_t>(wall.size()), 0.5 * wall.reach, reach, z_low, period);
+    walls.build(wx.data(), wy.data(), wz.data(), static_cast<std::int64_t>(active.size()), coarsest, reach, z_low, period);
     std::vector<Touch> touch(static_cast<std::size_t>(nodes.n));
 
     exec::for_each(nodes.n, [&](std::int64_t n) {
@@ -58,7 +89,7 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         bool close = false;
         walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], near, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last && !close; ++k) {
-                const auto j = static_cast<std::size_t>(walls.index(k));
+                const auto j = static_cast<std::size_t>(active[static_cast<std::size_t>(walls.index(k))]);
                 const double dx = nodes.x[i] - wall.x[j], dy = nodes.y[i] - wall.y[j], dz = nodes.z[i] - walls.shift(k) - wall.z[j];
                 close = dx * dx + dy * dy + dz * dz < near * near && dx * wall.nx[j] + dy * wall.ny[j] + dz * wall.nz[j] < 1.5 * nodes.radius[i] + 0.25 * wall.spacing[j];
             }
@@ -67,7 +98,7 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         double gap_sum = 0, nx = 0, ny = 0, nz = 0, vx = 0, vy = 0, vz = 0, modulus = 0;
         walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
-                const auto j = static_cast<std::size_t>(walls.index(k));
+                const auto j = static_cast<std::size_t>(active[static_cast<std::size_t>(walls.index(k))]);
                 if (nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3) continue;
                 double gap;
                 const double w = weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] - walls.shift(k), nodes.radius[i], gap);
@@ -135,9 +166,9 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         y.push_back(nodes.y[n]);
         z.push_back(nodes.z[n]);
     }
-    points.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(touching.size()), 0.5 * wall.reach, reach, z_low, period);
-    exec::for_each(static_cast<std::int64_t>(wall.size()), [&](std::int64_t m) {
-        const auto j = static_cast<std::size_t>(m);
+    points.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(touching.size()), coarsest, reach, z_low, period);
+    exec::for_each(static_cast<std::int64_t>(active.size()), [&](std::int64_t m) {
+        const auto j = static_cast<std::size_t>(active[static_cast<std::size_t>(m)]);
         points.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
                 const auto i = static_cast<std::size_t>(touching[static_cast<std::size_t>(points.index(k))]);

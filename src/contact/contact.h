@@ -41,8 +41,7 @@ struct Surface {
     std::vector<double> ix, iy, iz;               ///< impulse of the coming kick, mg mm/us
     std::vector<double> jx, jy, jz;               ///< of a body with long steps: impulse applied ahead of what contact gave, mg mm/us
     std::vector<double> z_reference;
-    double reach = 0;                             ///< largest tangential reach of a point, mm
-    double depth = 0;                             ///< how far behind the wall a node is still pushed back, mm
+    std::vector<double> depth;                    ///< how far behind the wall a node is still pushed back, mm
     std::size_t size() const { return slot.size(); }
 };
 

@@ -9,7 +9,6 @@ namespace brisance {
 template <class R>
 Surface make_surface(const SolidBody<R>& b) {
     Surface s;
-    double coarsest = 0;
     for (std::size_t c = 0; c < b.layout.columns.size(); ++c) {
         const Column& column = b.layout.columns[c];
         if (column.wall_layer != 0) continue;
@@ -22,15 +21,12 @@ Surface make_surface(const SolidBody<R>& b) {
             s.area.push_back(column.wall_length * b.layout.dz);
             s.spacing.push_back(column.spacing);
             s.dz.push_back(b.layout.dz);
+            s.depth.push_back(3 * column.wall_distance);
             s.modulus.push_back(b.material.longitudinal_modulus());
             s.z_reference.push_back(column.z0 + k * b.layout.dz);
         }
-        coarsest = std::max({coarsest, column.spacing, b.layout.dz});
-        s.depth = std::max(s.depth, 2 * column.wall_distance);
     }
     for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz, &s.ix, &s.iy, &s.iz, &s.jx, &s.jy, &s.jz}) a->assign(s.size(), 0);
-    s.reach = 2 * coarsest;
-    s.depth *= 1.5;
     return s;
 }
 

@@ -50,7 +50,7 @@ void for_each(std::int64_t n, F&& f, int grain = 64) {
     for (std::int64_t i = 0; i < n; ++i) f(i);
 }
 
-inline constexpr std::int64_t chunk = 1024;
+inline constexpr std::int64_t chunk = 256;
 
 /// Sum of f(i) over [0, n): each chunk in its order, then the chunks in theirs.
 template <class T, class F>

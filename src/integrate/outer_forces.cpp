@@ -19,6 +19,12 @@ Vec3<double> total_force(const World<R>& w) {
     return sum;
 }
 
+double coarsest(const Surface& s) {
+    double c = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) c = std::max({c, s.spacing[i], s.dz[i]});
+    return c;
+}
+
 double fastest(const double* x, const double* y, const double* z, std::int64_t n) {
     return std::sqrt(exec::max(n, 0.0, [&](std::int64_t i) { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; }));
 }
@@ -40,7 +46,7 @@ void outer_forces(World<R>& w) {
         }
     };
     ContactOptions options = w.contact;
-    options.dt = w.options.growth * w.dt_free;
+    options.dt = w.contact_dt;
     // fastest particle of each part: pairs that are far apart need no search until they can have met
     std::vector<double> fluid_speed, solid_speed;
     for (const FluidPart& f : w.fluids) fluid_speed.push_back(fastest(f.body.v[0].data(), f.body.v[1].data(), f.body.v[2].data(), f.body.size()));
@@ -66,7 +72,7 @@ void outer_forces(World<R>& w) {
             add(r, a.body.name, w.solids[c.b].body.name);
             if (r.touching == 0)
                 c.clear = clearance(a.body.x[0].data(), a.body.x[1].data(), a.body.x[2].data(), a.body.size(), s.x.data(), s.y.data(), s.z.data(),
-                                    static_cast<std::int64_t>(s.size()), 0.6 * a.forces.largest_spacing + 0.5 * s.reach, horizon, w.z_low, w.period);
+                                    static_cast<std::int64_t>(s.size()), 0.6 * a.forces.largest_spacing + coarsest(s), horizon, w.z_low, w.period);
         } else {
             SolidPart<R>&a = w.solids[c.a], &b = w.solids[c.b];
             const ContactReport r = surface_contact(a.surface, b.surface, options, w.z_low, w.period);
@@ -74,7 +80,7 @@ void outer_forces(World<R>& w) {
             if (r.touching == 0)
                 c.clear = clearance(a.surface.x.data(), a.surface.y.data(), a.surface.z.data(), static_cast<std::int64_t>(a.surface.size()), b.surface.x.data(),
                                     b.surface.y.data(), b.surface.z.data(), static_cast<std::int64_t>(b.surface.size()),
-                                    0.5 * std::max(a.surface.reach, b.surface.reach), horizon, w.z_low, w.period);
+                                    std::max(coarsest(a.surface), coarsest(b.surface)), horizon, w.z_low, w.period);
         }
     }
     // What comes from here on comes from outside, and its impulse is booked; contact has cancelled.

@@ -66,33 +66,54 @@ double fit(double dt, double left) {
 template <class R>
 double choose_step(World<R>& w, double until) {
     for (SolidPart<R>& s : w.solids) s.slow = false;
-    double fluids = 1e300;
+    double fluids = 1e300, fluid_particles = 0;
     for (const FluidPart& f : w.fluids) {
         std::int64_t worst;
         const double rate = f.solver.stable_rate(f.body, worst);
         if (rate > 0) fluids = std::min(fluids, w.options.courant_fluid / rate);
+        fluid_particles += static_cast<double>(f.body.size());
     }
-    double fast = fluids, slow = 1e300;
-    for (const SolidPart<R>& s : w.solids) fast = std::min(fast, solid_limit(w, s));
-    if (!w.fluids.empty() || w.solids.size() > 1)
-        for (SolidPart<R>& s : w.solids) {
-            const double limit = solid_limit(w, s);
-            s.slow = s.loads.empty() && limit > 2 * fast;
-            if (s.slow) slow = std::min({slow, limit, s.dt > 0 ? 1.1 * s.dt : limit});
+    // Solids with the longest limits are slow. How many: the division that costs least, particles times steps per time.
+    std::vector<std::size_t> order(w.solids.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return solid_limit(w, w.solids[a]) > solid_limit(w, w.solids[b]); });
+    double best = 1e300, slow_step = 1e300;
+    std::size_t slow_count = 0;
+    for (std::size_t n = 0; n <= order.size(); ++n) {
+        double fast = fluids, slow = 1e300, fast_particles = fluid_particles, slow_particles = 0;
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const SolidPart<R>& s = w.solids[order[k]];
+            const double limit = solid_limit(w, s), count = static_cast<double>(s.body.layout.particles);
+            if (k < n) {
+                if (!s.loads.empty()) slow = 0;  // a prescribed load is followed in short steps
+                slow = std::min(slow, s.dt > 0 ? std::min(limit, 1.5 * s.dt) : limit);
+                slow_particles += count;
+            } else {
+                fast = std::min(fast, limit);
+                fast_particles += count;
+            }
         }
-    const double left = until - w.time;
-    if (slow == 1e300) return choose_short_step(w, until);
-    return fit(std::min(slow, most_short_steps * fast), left);
+        if (n > 0 && !(slow > 2 * fast && fast < 1e299)) continue;
+        slow = std::min(slow, most_short_steps * fast);
+        const double cost = fast_particles / fast + (n > 0 ? slow_particles / slow : 0);
+        if (cost < best) {
+            best = cost;
+            slow_count = n;
+            slow_step = slow;
+        }
+    }
+    for (std::size_t k = 0; k < slow_count; ++k) w.solids[order[k]].slow = true;
+    return slow_count == 0 ? choose_short_step(w, until) : fit(slow_step, until - w.time);
 }
 
 template <class R>
 double choose_short_step(World<R>& w, double end) {
     w.dt_free = fast_limit(w);
+    w.contact_dt = std::max(w.contact_dt, w.dt_free);
     const double left = end - w.time;
-    bool block = false;
-    for (const SolidPart<R>& s : w.solids) block = block || s.slow;
-    if (!block) return fit(w.dt_free, left);
-    return left / std::ceil(left / w.dt_free - 1e-9);  // equal parts of what is left of the long step
+    const bool block = std::any_of(w.solids.begin(), w.solids.end(), [](const SolidPart<R>& s) { return s.slow; });
+    return block ? left / std::ceil(left / w.dt_free - 1e-9)  // equal parts of what is left of the long step
+                 : fit(w.dt_free, left);
 }
 
 template double choose_step(World<double>&, double);

@@ -88,6 +88,7 @@ struct World {
     double time = 0;               ///< us
     double dt = 0;                 ///< last drift of the fast parts, us
     double dt_free = 0;            ///< the last step before it was cut to meet an output time
+    double contact_dt = 0;         ///< longest step so far: contact springs are as hard as it bears, and never harden again
     std::int64_t short_steps = 0;  ///< steps of the fast parts
     std::int64_t steps = 0;
     std::string limiter;

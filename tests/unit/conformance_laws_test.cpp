@@ -234,7 +234,7 @@ TEST(EveryStrength, RotatedInputGivesRotatedOutput) {
 }
 
 TEST(EveryStrength, YieldingTwiceChangesNothing) {
-    // Slow steps: no rate term. What a step leaves for the next one (heat, damage) softens by less than a part of the strain increment.
+    // Slow steps: no rate term. Only the heat of a step, which acts from the next one on, may soften a little more; it grows as theta^m, m > 1/2.
     for_every_strength([](const Material& m) {
         Random random(4);
         for (int i = 0; i < 200; ++i) {
@@ -242,13 +242,15 @@ TEST(EveryStrength, YieldingTwiceChangesNothing) {
             SolidPoint<double> p = reached(m, random, size, slow);
             const SolidPoint<double> once = p;
             step(m, p, {}, p.mu);
-            EXPECT_LE(norm(p.s - once.s), (1e-12 + 0.3 * size) * norm(once.s)) << size;
+            const bool heats = column(m.strength->state(), "heating") >= 0;
+            const double left = heats ? 0.1 * std::sqrt(size) : 1e-12;
+            EXPECT_LE(norm(p.s - once.s), left * norm(once.s)) << size;
             const int plastic = column(m.strength->state(), "plastic_strain"), damage = column(m.strength->state(), "damage");
             if (plastic >= 0) {
-                EXPECT_NEAR(p.state[plastic], once.state[plastic], 1e-3 * size);
+                EXPECT_NEAR(p.state[plastic], once.state[plastic], left * size);
             }
             if (damage >= 0) {
-                EXPECT_NEAR(p.state[damage], once.state[damage], 1e-2 * size);
+                EXPECT_NEAR(p.state[damage], once.state[damage], heats ? left * size : 1e-9);
             }
             // and what is left dies out
             for (int k = 0; k < 3; ++k) step(m, p, {}, p.mu);
@@ -283,8 +285,9 @@ TEST(EveryStrength, DamageIsAFractionAndNeverFalls) {
 }
 
 TEST(EveryStrength, AClosedCycleOfStrainCostsWork) {
-    // Work of the stress deviator over a cycle that starts without stress: what is stored at its end plus what was dissipated. And total
-    // work per initial volume, pressure included, whose equation of state gives back all that it took (constant energy).
+    // Work of the stress deviator over a cycle that starts without stress is what is stored at its end plus what was dissipated: never
+    // negative. Neither is the total work per initial volume, pressure included (constant energy, so that the equation of state gives back
+    // what it took), up to what a hypoelastic law gains from volume changes under shear: about the volume strain times the largest work.
     EXPECT_TRUE(rc::check("work over closed cycles is not negative", [] {
         Random random(any_seed());
         const Material& m = solids()[static_cast<std::size_t>(random.uniform(0, 0.9999999) * static_cast<double>(solids().size()))];
@@ -292,7 +295,7 @@ TEST(EveryStrength, AClosedCycleOfStrainCostsWork) {
         const double size = random.decades(1e-4, 3e-2);
         const std::vector<Sym> path = closed_cycle(random, 4, size, random.uniform(0, 0.5) * size);
         const int n = 400;
-        double shear_work = 0, work = 0, largest = 0;
+        double shear_work = 0, work = 0, largest_shear = 0, largest = 0;
         for (int repeat = 0; repeat < 2; ++repeat)
             for (std::size_t leg = 1; leg < path.size(); ++leg)
                 for (int i = 1; i <= n; ++i) {
@@ -301,13 +304,14 @@ TEST(EveryStrength, AClosedCycleOfStrainCostsWork) {
                     const SolidPoint<double> before = p;
                     step(m, p, d, std::exp(-strain) - 1);
                     const double v = 1 / (1 + p.mu), v_before = 1 / (1 + before.mu);
-                    const double dw = 0.5 * (v + v_before) * 0.5 * ddot(p.s + before.s, deviator(d));
+                    const double dw = 0.5 * ddot(p.s + before.s, deviator(d));
                     shear_work += dw;
-                    work += dw - 0.5 * (p.pressure + before.pressure) * (v - v_before);
+                    work += 0.5 * (v + v_before) * dw - 0.5 * (p.pressure + before.pressure) * (v - v_before);
+                    largest_shear = std::max(largest_shear, std::abs(shear_work));
                     largest = std::max(largest, std::abs(work));
                 }
-        RC_ASSERT(shear_work >= -1e-6 * largest);
-        RC_ASSERT(work >= -1e-3 * largest);
+        RC_ASSERT(shear_work >= -1e-12 * largest_shear);
+        RC_ASSERT(work >= -size * largest);
     }));
 }
 

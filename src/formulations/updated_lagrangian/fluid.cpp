@@ -93,7 +93,8 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     const std::int64_t entries = grid_.entries();
     const auto padded = static_cast<std::size_t>(entries + width);
     for (auto* a : {&sx_, &sy_, &sz_, &svx_, &svy_, &svz_, &sm_, &srho_, &sp_, &sc_, &sh_, &sr_}) a->resize(padded);
-    const bool tension = b.options.artificial_stress;
+    // most fluids bear no tension: then there is nothing to resist
+    const bool tension = b.options.artificial_stress && std::any_of(b.pressure.begin(), b.pressure.end(), [](double p) { return p < 0; });
     exec::for_each(entries, [&](std::int64_t k) {
         const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
         sx_[s] = b.x[0][i];

@@ -139,7 +139,7 @@ struct Jh2 {
 
         const V du = vmax(y_old * y_old - y_new * y_new, zero) * R(1 / (6 * G));
         const V base = R(K1) * p.mu + bulking;
-        const V bulked = vsqrt(vmax(base * base + R(2 * beta * K1) * du, zero)) - R(K1) * p.mu;
+        const V bulked = bulking + (vsqrt(vmax(base * base + R(2 * beta * K1) * du, zero)) - base);
 
         p.s = scaled(trial, factor);
         p.pressure = pressure;
