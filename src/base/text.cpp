@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdarg>
 #include <cstdio>
 
 namespace brisance {
@@ -98,6 +99,15 @@ std::string shortest(double value) {
     char digits[40];
     const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     return std::string(digits, end);
+}
+
+std::string printed(const char* format, ...) {
+    std::va_list arguments;
+    va_start(arguments, format);
+    char buffer[512];
+    std::vsnprintf(buffer, sizeof(buffer), format, arguments);
+    va_end(arguments);
+    return buffer;
 }
 
 }  // namespace brisance

@@ -32,4 +32,7 @@ std::string trimmed(std::string_view text);
 /// The shortest decimal that reads back as the same double: "0.15", "1e-05".
 std::string shortest(double value);
 
+/// printf into a string, for files that nvcc compiles too: fmt's headers do not go through it.
+[[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...);
+
 }  // namespace brisance

@@ -7,6 +7,7 @@
 // plus one registration line. Sound speed: c^2 = (1/rho_0) [a' + b' E + P b / (1 + mu)^2].
 #pragma once
 
+#include "exec/device.h"
 #include "laws/parameters.h"
 #include "math/pack.h"
 
@@ -81,8 +82,19 @@ private:
 };
 }  // namespace detail
 
+/// The law over an array of points, for a device.
+template <class Law, class R>
+struct EosKernel {
+    Law law;
+    const R* mu;
+    EosTerms<R>* out;
+    BRISANCE_HD void operator()(std::int64_t i) const { out[i] = law.terms(mu[i]); }
+};
+
 bool add_eos(EosEntry entry);
 template <class Law> bool register_eos() {
+    exec::compile_for_device<EosKernel<Law, double>>();
+    exec::compile_for_device<EosKernel<Law, float>>();
     return add_eos({Law::name, Law::meaning, Law::parameters(),
                     [](const ParameterSet& p) -> EosPtr { return std::make_shared<detail::EosOf<Law>>(p); }});
 }

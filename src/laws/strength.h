@@ -62,8 +62,8 @@ class Strength {
 public:
     virtual ~Strength() = default;
     virtual void update(SolidPoint<double>&) const = 0;
-    virtual void update(SolidPoint<Pack<double>>&) const = 0;
-    virtual void update(SolidPoint<Pack<float>>&) const = 0;
+    virtual void update_pack(SolidPoint<Pack<double>>&) const = 0;
+    virtual void update_pack(SolidPoint<Pack<float>>&) const = 0;
     virtual double shear_modulus() const = 0;
     virtual std::vector<StateInfo> state() const = 0;
     virtual std::string law() const = 0;
@@ -86,8 +86,8 @@ class StrengthOf final : public Strength {
 public:
     StrengthOf(const ParameterSet& p, const Eos& eos, double density) : law_(p, eos, density) {}
     void update(SolidPoint<double>& p) const override { law_.update(p); }
-    void update(SolidPoint<Pack<double>>& p) const override { law_.update(p); }
-    void update(SolidPoint<Pack<float>>& p) const override { law_.update(p); }
+    void update_pack(SolidPoint<Pack<double>>& p) const override { law_.update(p); }
+    void update_pack(SolidPoint<Pack<float>>& p) const override { law_.update(p); }
     double shear_modulus() const override { return law_.shear_modulus(); }
     std::vector<StateInfo> state() const override { return Law::state(); }
     std::string law() const override { return Law::name; }
@@ -101,8 +101,18 @@ private:
 };
 }  // namespace detail
 
+/// The law over an array of points, for a device.
+template <class Law, class R>
+struct StrengthKernel {
+    Law law;
+    SolidPoint<R>* points;
+    BRISANCE_HD void operator()(std::int64_t i) const { law.update(points[i]); }
+};
+
 bool add_strength(StrengthEntry entry);
 template <class Law> bool register_strength() {
+    exec::compile_for_device<StrengthKernel<Law, double>>();
+    exec::compile_for_device<StrengthKernel<Law, float>>();
     return add_strength({Law::name, Law::meaning, Law::parameters(), Law::state(),
                          [](const ParameterSet& p, const Eos& eos, double density) -> StrengthPtr {
                              return std::make_shared<detail::StrengthOf<Law>>(p, eos, density);

@@ -15,7 +15,8 @@ template <class V> struct Principal { V one, two, three; };
 template <class V> BRISANCE_HD inline Principal<V> principal(const Sym3<V>& a) {
     using R = ScalarOf<V>;
     const V zero{};
-    const V mean = trace(a) * R(1.0 / 3.0);
+    // Quotients, roots and maxima feed the sums below, no products: which of those are contracted would depend on the caller.
+    const V mean = trace(a) / R(3);
     const Sym3<V> d{a.xx - mean, a.yy - mean, a.zz - mean, a.xy, a.xz, a.yz};
     const V size = vsqrt(R(1.0 / 6.0) * ddot(d, d));  // sqrt(J2/3)
     const V f = R(1) / vmax(size, V{} + R(1e-30));
@@ -27,7 +28,8 @@ template <class V> BRISANCE_HD inline Principal<V> principal(const Sym3<V>& a) {
     const V apart = vsqrt(R(0.75) * sq(size) * vmax((R(2) - t) * (R(2) + t), zero));
     const auto positive = c >= zero;
     const V sign = positive ? V{} + R(1) : V{} - R(1);
-    const V lone = mean + sign * (size * t), centre = mean - sign * (R(0.5) * size * t);
+    const V far = vmax(size * t, zero);
+    const V lone = mean + sign * far, centre = mean - sign * (R(0.5) * far);
     const V high = centre + apart, low = centre - apart;
     return {positive ? lone : high, positive ? high : low, positive ? low : lone};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD packs: V is either a scalar R or a 64-byte pack of R. Kernels and laws are written once, on V, without branches:
-// (x > y) ? a : b works for both. Under nvcc a pack is one number, since there a thread is a lane.
+// (x > y) ? a : b works for both. In a build for CUDA a pack is one number everywhere, since there a thread is a lane.
 #pragma once
 
 #include "math/hd.h"
@@ -17,7 +17,7 @@ template <class V> struct ScalarOf { using type = V; };
 template <class V> struct BitsOf;
 template <> struct BitsOf<double> { using type = std::int64_t; };
 template <> struct BitsOf<float> { using type = std::int32_t; };
-#ifdef __CUDACC__
+#ifdef BRISANCE_CUDA
 template <> struct PackOf<double> { using type = double; };
 template <> struct PackOf<float> { using type = float; };
 #else

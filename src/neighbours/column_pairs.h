@@ -31,6 +31,20 @@ struct ColumnPairs {
     double bonds_per_particle = 0;
 };
 
+/// The pairs as bare pointers, for kernels.
+template <class R>
+struct PairsView {
+    const std::int64_t* begin;
+    const ColumnPair<R>* pairs;
+    const R* w;
+    const double* k_inverse;
+    const double* g_sum;
+};
+template <class R>
+PairsView<R> view(const ColumnPairs<R>& p) {
+    return {p.begin.data(), p.pairs.data(), p.w.data(), p.k_inverse.data(), p.g_sum.data()};
+}
+
 /// Finds the pairs (cell grid over the section), their weights and the columns' sums; sets `masked` on tiles with missing neighbours.
 /// `smoothing` is h/spacing in the section and along z. Sets columns.pad beforehand through `largest_offset`.
 template <class R> ColumnPairs<R> find_column_pairs(Columns& columns, double smoothing);

@@ -63,6 +63,28 @@ struct SolidBody {
     double mass(const Column& c) const { return material.density * volume(c); }
 };
 
+/// What the neighbour sums of a body read, as bare pointers: the form in which kernels take it.
+template <class R>
+struct SolidView {
+    const R* u[3];
+    const R* v_now[3];
+    const R* T[9];
+    const R* stiffness;
+    const R* live;
+};
+template <class R>
+SolidView<R> view(const SolidBody<R>& b) {
+    SolidView<R> s{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        s.u[k] = b.u[k].data();
+        s.v_now[k] = b.v_now[k].data();
+    }
+    for (std::size_t k = 0; k < 9; ++k) s.T[k] = b.T[k].data();
+    s.stiffness = b.stiffness.data();
+    s.live = b.live.data();
+    return s;
+}
+
 /// Allocates everything for a layout, at rest and unstressed.
 template <class R>
 void allocate(SolidBody<R>& b) {

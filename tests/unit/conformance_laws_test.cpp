@@ -94,6 +94,7 @@ std::uint64_t any_seed() { return *rc::gen::arbitrary<std::uint64_t>(); }
 
 // ---- tables
 
+namespace {
 template <class Entry> void check_table(const Entry& entry) {
     SCOPED_TRACE(entry.name);
     EXPECT_TRUE(std::regex_match(entry.name, std::regex("[a-z][a-z0-9_]*")));
@@ -113,6 +114,7 @@ template <class Entry> void check_table(const Entry& entry) {
         }
     }
 }
+}  // namespace
 
 TEST(LawTables, SayNameDimensionMeaningAndRange) {
     for (const EosEntry& entry : eos_entries()) check_table(entry);
@@ -133,6 +135,7 @@ TEST(LawTables, SayNameDimensionMeaningAndRange) {
     EXPECT_FALSE(burn_parameters().empty());
 }
 
+namespace {
 template <class Entry, class Part> void check_refusals(const Entry& entry, const Part& part) {
     SCOPED_TRACE(entry.name);
     const MaterialData good = users_of(entry).front();
@@ -171,6 +174,7 @@ template <class Entry, class Part> void check_refusals(const Entry& entry, const
     EXPECT_EQ(message.find("bad.toml:43:1"), 0u) << message;
     EXPECT_TRUE(says(message, "no_such") && says(message, entry.parameters.back().name)) << message;
 }
+}  // namespace
 
 TEST(LawTables, RefuseMissingUnknownAndOutOfRangeWithTheirPlace) {
     for (const EosEntry& entry : eos_entries()) check_refusals(entry, [](auto& data) -> auto& { return data.eos; });
@@ -246,11 +250,12 @@ TEST(EveryStrength, YieldingTwiceChangesNothing) {
             const double left = heats ? 0.1 * std::sqrt(size) : 1e-12;
             EXPECT_LE(norm(p.s - once.s), left * norm(once.s)) << size;
             const int plastic = column(m.strength->state(), "plastic_strain"), damage = column(m.strength->state(), "damage");
-            if (plastic >= 0) {
-                EXPECT_NEAR(p.state[plastic], once.state[plastic], left * size);
+            if (plastic >= 0) {  // the stress that was given up is plastic strain
+                const double given_up = (mises(once.s) - mises(p.s)) / (3 * m.strength->shear_modulus());
+                EXPECT_NEAR(p.state[plastic] - once.state[plastic], given_up, 1e-13 + 1e-9 * given_up);
             }
             if (damage >= 0) {
-                EXPECT_NEAR(p.state[damage], once.state[damage], heats ? left * size : 1e-9);
+                EXPECT_NEAR(p.state[damage], once.state[damage], heats ? left : 1e-9);
             }
             // and what is left dies out
             for (int k = 0; k < 3; ++k) step(m, p, {}, p.mu);
@@ -334,7 +339,7 @@ TEST(EveryStrength, NoNanForHugeIncrements) {
                 points.push_back(p);
             }
             SolidPoint<Pack<float>> f = packed<Pack<float>>(points);
-            m.strength->update(f);
+            m.strength->update_pack(f);
             for (int l = 0; l < lanes<float>; ++l)
                 for (const double x : lane_values(f, l)) ASSERT_TRUE(std::isfinite(x));
             for (SolidPoint<double>& p : points) {
@@ -364,14 +369,15 @@ TEST(EveryStrength, PackGivesTheBitsOfThePoint) {
                 points.push_back(p);
             }
             SolidPoint<Pack<double>> batch = packed<Pack<double>>(points);
-            m.strength->update(batch);
+            m.strength->update_pack(batch);
             for (int l = 0; l < lanes<double>; ++l) {
                 SolidPoint<double>& p = points[static_cast<std::size_t>(l)];
                 m.strength->update(p);
                 const std::vector<double> got = lane_values(batch, l);
                 std::vector<double> want;
                 for_each_field(p, [&](double& x) { want.push_back(x); });
-                for (std::size_t k = 0; k < want.size(); ++k) ASSERT_TRUE(same_bits(got[k], want[k])) << "field " << k << ": " << got[k] << " - " << want[k] << " = " << got[k] - want[k];
+                for (std::size_t k = 0; k < want.size(); ++k)
+                    ASSERT_TRUE(same_bits(got[k], want[k])) << "field " << k << ": " << got[k] << " - " << want[k] << " = " << got[k] - want[k];
             }
         }
     });
@@ -388,7 +394,7 @@ TEST(EveryStrength, SinglePrecisionFollowsDoubleInEveryLane) {
             p.mu = random.uniform(0.002, 0.03);
             p.pressure = m.eos->pressure(p.mu, p.energy);
             SolidPoint<Pack<float>> f = packed<Pack<float>>({p});
-            m.strength->update(f);
+            m.strength->update_pack(f);
             m.strength->update(p);
             const std::vector<double> first = lane_values(f, 0);
             for (int l = 1; l < lanes<float>; ++l) EXPECT_EQ(lane_values(f, l), first) << "lanes do not know each other";

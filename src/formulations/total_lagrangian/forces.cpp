@@ -4,6 +4,7 @@
 // Pairwise viscosity in total-Lagrangian form, with x = x_j - x_i, v = v_j - v_i at t_n, only where x.v < 0:
 //   mu = h x.v/(x^2 + 0.01 h^2),  q = rho (-alpha c mu + beta mu^2) >= 0,  f_ij/V_i = -w q x     (central: angular momentum is kept)
 // and its heat -f_ij.v/2 to each of the two.
+#include "exec/device.h"
 #include "formulations/total_lagrangian/total_lagrangian.h"
 
 #include <algorithm>
@@ -18,36 +19,36 @@ struct Force {
     V vx{}, vy{}, vz{}, heat{};  // the viscous part
 };
 
+/// Constants of the pairwise viscosity.
+template <class R>
+struct Viscosity {
+    R alpha_c = 0, beta = 0, rho = 0;
+};
+
+/// The force per volume on the particles in slots base, base + 1, ... of a column.
 template <class V, bool masked, bool viscous, class R>
-Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const Tile& tile) {
-    const std::size_t c = static_cast<std::size_t>(tile.column);
-    const std::int64_t i = tile.base;
-    const R *t0 = b.T[0].data() + i, *t1 = b.T[1].data() + i, *t2 = b.T[2].data() + i, *t3 = b.T[3].data() + i, *t4 = b.T[4].data() + i,
-            *t5 = b.T[5].data() + i, *t6 = b.T[6].data() + i, *t7 = b.T[7].data() + i, *t8 = b.T[8].data() + i;
-    const R *ux = b.u[0].data() + i, *uy = b.u[1].data() + i, *uz = b.u[2].data() + i;
-    const R* stiffness = b.stiffness.data() + i;
-    const R* live = b.live.data() + i;
+BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pairs, std::int64_t i, std::int32_t column, const Viscosity<R>& visc) {
+    const std::int64_t c = column;
+    const R *t0 = b.T[0] + i, *t1 = b.T[1] + i, *t2 = b.T[2] + i, *t3 = b.T[3] + i, *t4 = b.T[4] + i, *t5 = b.T[5] + i, *t6 = b.T[6] + i,
+            *t7 = b.T[7] + i, *t8 = b.T[8] + i;
+    const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *stiffness = b.stiffness + i, *live = b.live + i;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), ai = load<V>(stiffness);
     [[maybe_unused]] const R *vx = nullptr, *vy = nullptr, *vz = nullptr;
     [[maybe_unused]] V vxi{}, vyi{}, vzi{};
-    [[maybe_unused]] R alpha_c = 0, beta = 0, rho = 0;
     if constexpr (viscous) {
-        vx = b.v_now[0].data() + i;
-        vy = b.v_now[1].data() + i;
-        vz = b.v_now[2].data() + i;
+        vx = b.v_now[0] + i;
+        vy = b.v_now[1] + i;
+        vz = b.v_now[2] + i;
         vxi = load<V>(vx);
         vyi = load<V>(vy);
         vzi = load<V>(vz);
-        rho = static_cast<R>(b.material.density);
-        alpha_c = static_cast<R>(b.options.alpha * b.material.sound_speed());
-        beta = static_cast<R>(b.options.beta);
     }
     Force<V> f;
     V gx{}, gy{}, gz{};  // sum w xi of a masked tile
     V kx{}, ky{}, kz{};  // zero-energy control
     for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
-        const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
-        const R* w = pairs.w.data() + pair.weights;
+        const ColumnPair<R>& pair = pairs.pairs[p];
+        const R* w = pairs.w + pair.weights;
         V sxx{}, sxy{}, syx{}, syy{}, szx{}, szy{};
         [[maybe_unused]] V m0{}, m1{};
         R z = pair.z_first;
@@ -79,7 +80,7 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
                 const V dvx = load<V>(vx + j) - vxi, dvy = load<V>(vy + j) - vyi, dvz = load<V>(vz + j) - vzi;
                 const V xv = vmin(x * dvx + y * dvy + zz * dvz, V{});
                 const V mu = pair.h * xv / (x * x + y * y + zz * zz + R(0.01) * pair.h * pair.h);
-                const V q = weight * (rho * mu * (beta * mu - alpha_c));
+                const V q = weight * (visc.rho * mu * (visc.beta * mu - visc.alpha_c));
                 f.vx -= q * x;
                 f.vy -= q * y;
                 f.vz -= q * zz;
@@ -96,7 +97,7 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
         }
     }
     if constexpr (!masked) {
-        const double* g = pairs.g_sum.data() + 3 * c;
+        const double* g = pairs.g_sum + 3 * c;
         gx = broadcast<V>(R(g[0]));
         gy = broadcast<V>(R(g[1]));
         gz = broadcast<V>(R(g[2]));
@@ -117,6 +118,26 @@ Force<V> gather_force(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const 
     return f;
 }
 
+/// The same force by single lanes, for a device; without pairwise viscosity.
+template <class R>
+struct ForceKernel {
+    SolidView<R> body;
+    PairsView<R> pairs;
+    const Tile* tiles;
+    std::int32_t width;
+    R scale;
+    R* v[3];
+    BRISANCE_HD void operator()(std::int64_t i) const {
+        const Tile& tile = tiles[i / width];
+        const std::int64_t slot = tile.base + i % width;
+        const Force<R> f = tile.masked ? gather_force<R, true, false>(body, pairs, slot, tile.column, Viscosity<R>{})
+                                       : gather_force<R, false, false>(body, pairs, slot, tile.column, Viscosity<R>{});
+        v[0][slot] += scale * f.x;
+        v[1][slot] += scale * f.y;
+        v[2][slot] += scale * f.z;
+    }
+};
+
 }  // namespace
 
 template <class R>
@@ -124,13 +145,20 @@ double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
     using V = Pack<R>;
     const R scale = static_cast<R>(kick / b.material.density), inverse_density = static_cast<R>(1 / b.material.density);
     const bool viscous = b.options.pairwise;
+    const SolidView<R> body = view(b);
+    const PairsView<R> bonds = view(pairs);
+    const Viscosity<R> viscosity{static_cast<R>(b.options.alpha * b.material.sound_speed()), static_cast<R>(b.options.beta),
+                                 static_cast<R>(b.material.density)};
+    exec::compile_for_device<ForceKernel<R>>();
     const auto n = static_cast<std::int64_t>(b.layout.tiles.size());
     std::vector<double> heat(viscous ? static_cast<std::size_t>(n) : 0);
     exec::for_each(n, [&](std::int64_t t) {
         const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
         const std::int64_t i = tile.base;
-        const Force<V> f = viscous ? (tile.masked ? gather_force<V, true, true>(b, pairs, tile) : gather_force<V, false, true>(b, pairs, tile))
-                                   : (tile.masked ? gather_force<V, true, false>(b, pairs, tile) : gather_force<V, false, false>(b, pairs, tile));
+        const Force<V> f = viscous ? (tile.masked ? gather_force<V, true, true>(body, bonds, i, tile.column, viscosity)
+                                                  : gather_force<V, false, true>(body, bonds, i, tile.column, viscosity))
+                                   : (tile.masked ? gather_force<V, true, false>(body, bonds, i, tile.column, viscosity)
+                                                  : gather_force<V, false, false>(body, bonds, i, tile.column, viscosity));
         const V fs[3] = {f.x + f.vx, f.y + f.vy, f.z + f.vz}, viscous_part[3] = {f.vx, f.vy, f.vz};
         for (std::size_t k = 0; k < 3; ++k) {
             const V v = load<V>(b.v[k].data() + i) + scale * fs[k];

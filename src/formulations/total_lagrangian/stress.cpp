@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pass 1: F from the neighbours' displacements, objective strain increment, equation of state, strength law, T = P K^-1 - a (F - I).
+#include "exec/device.h"
 #include "formulations/total_lagrangian/total_lagrangian.h"
 #include "math/eigen.h"
 
@@ -18,19 +19,17 @@ struct Gathered {
     Sym3<V> k_inverse{};
 };
 
+/// The sums of the particles in slots base, base + 1, ... of a column.
 template <class V, bool masked, class R>
-Gathered<V> gather(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const Tile& tile) {
-    const std::size_t c = static_cast<std::size_t>(tile.column);
-    const R* ux = b.u[0].data() + tile.base;
-    const R* uy = b.u[1].data() + tile.base;
-    const R* uz = b.u[2].data() + tile.base;
-    const R* live = b.live.data() + tile.base;
+BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs, std::int64_t base, std::int32_t column) {
+    const std::int64_t c = column;
+    const R *ux = b.u[0] + base, *uy = b.u[1] + base, *uz = b.u[2] + base, *live = b.live + base;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz);
     Gathered<V> g;
     Sym3<V> K{};
     for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
-        const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
-        const R* w = pairs.w.data() + pair.weights;
+        const ColumnPair<R>& pair = pairs.pairs[p];
+        const R* w = pairs.w + pair.weights;
         V sx{}, sy{}, sz{}, tx{}, ty{}, tz{};   // sums of w du and of w z du
         V m0{}, m1{}, m2{};                     // sums of w, w z, w z^2
         R z = pair.z_first;
@@ -85,7 +84,7 @@ Gathered<V> gather(const SolidBody<R>& b, const ColumnPairs<R>& pairs, const Til
         g.r = {g.r.xx * on, g.r.xy * on, g.r.xz * on, g.r.yx * on, g.r.yy * on, g.r.yz * on, g.r.zx * on, g.r.zy * on, g.r.zz * on};
         g.square = g.square * on;
     } else {
-        const double* k = pairs.k_inverse.data() + 6 * c;
+        const double* k = pairs.k_inverse + 6 * c;
         g.k_inverse = {broadcast<V>(R(k[0])), broadcast<V>(R(k[1])), broadcast<V>(R(k[2])),
                        broadcast<V>(R(k[3])), broadcast<V>(R(k[4])), broadcast<V>(R(k[5]))};
     }
@@ -151,6 +150,23 @@ template <class V> Sym3<V> rotated(const Mat3<V>& q, const Sym3<V>& s) {
             row(qs.xx, qs.xy, qs.xz, q.yx, q.yy, q.yz), row(qs.xx, qs.xy, qs.xz, q.zx, q.zy, q.zz), row(qs.yx, qs.yy, qs.yz, q.zx, q.zy, q.zz)};
 }
 
+/// The same sums by single lanes, for a device.
+template <class R>
+struct GatherKernel {
+    SolidView<R> body;
+    PairsView<R> pairs;
+    const Tile* tiles;
+    std::int32_t width;
+    R* r[9];
+    BRISANCE_HD void operator()(std::int64_t i) const {
+        const Tile& tile = tiles[i / width];
+        const std::int64_t slot = tile.base + i % width;
+        const Mat3<R> m = tile.masked ? gather<R, true>(body, pairs, slot, tile.column).r : gather<R, false>(body, pairs, slot, tile.column).r;
+        const R all[9] = {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz};
+        for (int k = 0; k < 9; ++k) r[k][slot] = all[k];
+    }
+};
+
 /// What one tile adds to the report.
 struct TileReport {
     double rate = 0, zero_energy = 0, zero_energy_lost = 0, bulk_viscous = 0;
@@ -162,11 +178,11 @@ class StressPass {
 public:
     using V = Pack<R>;
     StressPass(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick)
-        : b(body), pairs_(pairs), time_(static_cast<float>(time)), dt_(static_cast<R>(dt)), kick_(static_cast<R>(kick)),
+        : b(body), view_(view(body)), pairs_(view(pairs)), time_(static_cast<float>(time)), dt_(static_cast<R>(dt)), kick_(static_cast<R>(kick)),
           a0_(static_cast<R>(body.options.zero_energy * body.material.longitudinal_modulus())), n_state_(static_cast<int>(body.state.size())) {}
 
     TileReport operator()(const Tile& tile) const {
-        const Gathered<V> g = tile.masked ? gather<V, true>(b, pairs_, tile) : gather<V, false>(b, pairs_, tile);
+        const Gathered<V> g = tile.masked ? gather<V, true>(view_, pairs_, tile.base, tile.column) : gather<V, false>(view_, pairs_, tile.base, tile.column);
         return update(tile, g);
     }
 
@@ -213,7 +229,7 @@ private:
         p.scale = load<V>(b.scale.data() + i);
         for (int k = 0; k < n_state_; ++k) p.state[k] = load<V>(b.state[static_cast<std::size_t>(k)].data() + i);
         const V damage_old = n_state_ > 0 ? p.state[0] : zero;
-        b.material.strength->update(p);
+        b.material.strength->update_pack(p);
         failure(p, tile, column, damage_old);
 
         // bulk viscosity: q = rho l (C_q l e^2 - C_l c e) in compression, e = tr D < 0
@@ -358,7 +374,8 @@ private:
     }
 
     SolidBody<R>& b;
-    const ColumnPairs<R>& pairs_;
+    SolidView<R> view_;
+    PairsView<R> pairs_;
     float time_;
     R dt_, kick_, a0_;
     int n_state_;
@@ -397,7 +414,7 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         if (!touched[static_cast<std::size_t>(t)]) return;
         Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
         tile.masked = true;
-        store_matrix(b.R_sum, tile.base, gather<Pack<R>, true>(b, pairs, tile).r);
+        store_matrix(b.R_sum, tile.base, gather<Pack<R>, true>(view(b), view(pairs), tile.base, tile.column).r);
     });
 }
 
@@ -405,6 +422,7 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
 
 template <class R>
 StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick) {
+    exec::compile_for_device<GatherKernel<R>>();
     const StressPass<R> pass(body, pairs, time, dt, kick);
     const auto n = static_cast<std::int64_t>(body.layout.tiles.size());
     std::vector<TileReport> reports(static_cast<std::size_t>(n));

@@ -13,10 +13,10 @@
 // that drop is not plastic strain: its energy feeds the bulking. Counting it as plastic strain in the next step, as several public
 // codes do, makes damage snap through and misses the curves of the 1994 paper (tests/unit/jh2_test.cpp shows both).
 #include "base/error.h"
+#include "base/text.h"
 #include "laws/strength.h"
 #include "math/power.h"
 
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -58,8 +58,8 @@ struct Jh2 {
         phel = p.at("PHEL").value > 0 ? p.at("PHEL").value : phel_of_eos;
         shel = p.at("SHEL").value > 0 ? p.at("SHEL").value : 1.5 * (hel - phel);
         if (!(shel > 0))
-            throw InputError(fmt::format("{}: PHEL = {} is not below HEL = {}: the strength at the HEL, 1.5 (HEL - PHEL), would not be positive",
-                                         p.at("PHEL").where, p.at("PHEL").text, p.at("HEL").text));
+            throw InputError(p.at("PHEL").where + ": PHEL = " + p.at("PHEL").text + " is not below HEL = " + p.at("HEL").text +
+                             ": the strength at the HEL, 1.5 (HEL - PHEL), would not be positive");
     }
     double shear_modulus() const { return G; }
 
@@ -71,7 +71,7 @@ struct Jh2 {
             low = high;
             high += 1e-4;
         }
-        if (excess(high) < 0) throw InputError(fmt::format("{}: HEL = {} is not reached below mu = 10", given.where, given.text));
+        if (excess(high) < 0) throw InputError(given.where + ": HEL = " + given.text + " is not reached below mu = 10");
         for (int i = 0; i < 80; ++i) {
             const double mid = 0.5 * (low + high);
             (excess(mid) < 0 ? low : high) = mid;
@@ -83,14 +83,12 @@ struct Jh2 {
         std::vector<std::string> r;
         const double off = phel / phel_of_eos - 1;
         if (std::abs(off) > 0.01)
-            r.push_back(fmt::format("PHEL = {:.4g} GPa is {:+.1f} % off the {:.4g} GPa that HEL, G and the equation of state give", phel,
-                                    100 * off, phel_of_eos));
+            r.push_back(printed("PHEL = %.4g GPa is %+.1f %% off the %.4g GPa that HEL, G and the equation of state give", phel, 100 * off, phel_of_eos));
         const double at_hel = A * std::pow(1 + T / phel, N);
         if (std::abs(at_hel - 1) > 0.05)
-            r.push_back(fmt::format("A (1 + T*)^N = {:.3f} at the HEL, not 1: the HEL is not a yield point of this set", at_hel));
-        r.push_back(fmt::format("PHEL = {:.4f} GPa, SHEL = {:.4f} GPa, strength at P = 0: {:.1f} MPa, uniaxial strengths: tension {:.0f} MPa, "
-                                "compression {:.0f} MPa",
-                                phel, shel, 1e3 * intact(0), 1e3 * uniaxial(-1), 1e3 * uniaxial(+1)));
+            r.push_back(printed("A (1 + T*)^N = %.3f at the HEL, not 1: the HEL is not a yield point of this set", at_hel));
+        r.push_back(printed("PHEL = %.4f GPa, SHEL = %.4f GPa, strength at P = 0: %.1f MPa, uniaxial strengths: tension %.0f MPa, compression %.0f MPa", phel,
+                            shel, 1e3 * intact(0), 1e3 * uniaxial(-1), 1e3 * uniaxial(+1)));
         return r;
     }
     double intact(double pressure) const {

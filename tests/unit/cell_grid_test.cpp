@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every range query against a search through all points and all their images.
+#include "core_helpers.h"
+#include "neighbours/cell_grid.h"
+
+#include <map>
+#include <set>
+
+using namespace brisance;
+using namespace brisance::core_test;
+
+namespace {
+
+struct Points {
+    std::vector<double> x, y, z;
+    std::int64_t size() const { return static_cast<std::int64_t>(x.size()); }
+    void add(double a, double b, double c) {
+        x.push_back(a);
+        y.push_back(b);
+        z.push_back(c);
+    }
+};
+
+using Found = std::set<std::pair<std::int64_t, std::int64_t>>;  // index, image number
+
+void compare(const Points& p, double cell, double reach, double z_low, double period, Random& random, int queries) {
+    CellGrid grid;
+    grid.build(p.x.data(), p.y.data(), p.z.data(), p.size(), cell, reach, z_low, period);
+    std::int64_t own = 0;
+    for (std::int64_t k = 0; k < grid.entries(); ++k) own += !grid.image(k);
+    EXPECT_EQ(own, p.size());
+    for (int n = 0; n < queries; ++n) {
+        double at[3];
+        if (n % 2 && p.size() > 0) {
+            const auto i = static_cast<std::size_t>(random.uniform(0, static_cast<double>(p.size())));
+            at[0] = p.x[i], at[1] = p.y[i], at[2] = p.z[i];
+        } else {
+            at[0] = random.uniform(-4, 4), at[1] = random.uniform(-4, 4), at[2] = period > 0 ? z_low + random.uniform(0, period) : random.uniform(-4, 4);
+        }
+        const double want_reach = n % 3 ? reach : 0.4 * reach;
+        Found want, all;
+        const int images = period > 0 ? static_cast<int>(std::ceil(want_reach / period)) + 1 : 0;
+        for (std::int64_t i = 0; i < p.size(); ++i)
+            for (int m = -images; m <= images; ++m) {
+                const auto k = static_cast<std::size_t>(i);
+                const double dx = p.x[k] - at[0], dy = p.y[k] - at[1], dz = p.z[k] + m * period - at[2];
+                if (dx * dx + dy * dy + dz * dz < want_reach * want_reach) want.insert({i, m});
+            }
+        std::int64_t visited = 0, last_cell_end = -1;
+        grid.ranges(at[0], at[1], at[2], want_reach, [&](std::int64_t first, std::int64_t last) {
+            EXPECT_LT(first, last);
+            EXPECT_GE(first, last_cell_end);  // forward through the entries: the order is fixed
+            last_cell_end = last;
+            for (std::int64_t k = first; k < last; ++k, ++visited) all.insert({grid.index(k), period > 0 ? std::lround(grid.shift(k) / period) : 0});
+        });
+        EXPECT_EQ(visited, static_cast<std::int64_t>(all.size())) << "an entry came twice";
+        for (const auto& w : want) EXPECT_TRUE(all.count(w)) << "point " << w.first << " image " << w.second;
+    }
+}
+
+Points random_points(Random& random, int n, double low, double high, double z_low, double z_high) {
+    Points p;
+    for (int i = 0; i < n; ++i) p.add(random.uniform(low, high), random.uniform(low, high), random.uniform(z_low, z_high));
+    return p;
+}
+
+}  // namespace
+
+TEST(CellGrid, FindsEveryPoint) {
+    Random random(3);
+    for (const double cell : {0.2, 0.7, 3.0, 50.0}) compare(random_points(random, 400, -3, 3, -3, 3), cell, 0.8, 0, 0, random, 60);
+}
+
+TEST(CellGrid, PeriodicImages) {
+    Random random(4);
+    // longer and shorter than twice the reach, and shorter than the reach itself
+    for (const double period : {6.0, 1.3, 0.5, 0.2}) compare(random_points(random, 150, -2, 2, 1.5, 1.5 + period), 0.5, 0.9, 1.5, period, random, 60);
+}
+
+TEST(CellGrid, ClustersAndPointsFarAway) {
+    Random random(5);
+    Points p = random_points(random, 200, 0.999, 1.001, 0.999, 1.001);
+    for (int i = 0; i < 30; ++i) p.add(1, 1, 1);  // all in one place
+    p.add(1e7, -1e6, 1e5);                         // flung out: must neither cost memory nor be lost
+    compare(p, 0.01, 0.05, 0, 0, random, 60);
+    CellGrid grid;
+    grid.build(p.x.data(), p.y.data(), p.z.data(), p.size(), 0.01, 0.05);
+    bool found = false;
+    grid.ranges(1e7, -1e6, 1e5, 0.05, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) found = found || grid.index(k) == p.size() - 1;
+    });
+    EXPECT_TRUE(found);
+}
+
+TEST(CellGrid, EmptyAndSingle) {
+    Random random(6);
+    CellGrid grid;
+    const double nothing = 0;
+    grid.build(&nothing, &nothing, &nothing, 0, 1, 1);
+    EXPECT_EQ(grid.entries(), 0);
+    grid.ranges(0, 0, 0, 1, [](std::int64_t, std::int64_t) { FAIL() << "no points"; });
+    Points p;
+    p.add(0.1, 0.2, 0.3);
+    compare(p, 1, 0.5, 0, 0, random, 20);
+    compare(p, 1, 2.5, 0, 1, random, 20);
+}
+
+TEST(CellGrid, PointsOfACellKeepTheirOrder) {
+    Random random(7);
+    const Points p = random_points(random, 300, 0, 1, 0, 1);
+    CellGrid grid;
+    grid.build(p.x.data(), p.y.data(), p.z.data(), p.size(), 10, 1);  // one cell
+    for (std::int64_t k = 0; k < grid.entries(); ++k) EXPECT_EQ(grid.index(k), k);
+}
