@@ -43,7 +43,7 @@ struct ContactPair {
 };
 
 struct StepOptions {
-    double courant_solid = 0.6, courant_fluid = 0.3, growth = 1.02;
+    double courant_solid = 0.6, courant_fluid = 0.4, growth = 1.02;
     double minimum = 0;  ///< us
     double residual_limit = 0.05;
 };

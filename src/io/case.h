@@ -120,7 +120,7 @@ struct SliceData {
 
 struct StepData {
     double courant_solid = 0.6;   ///< fraction of the stable step of the stencil
-    double courant_fluid = 0.3;
+    double courant_fluid = 0.4;
     double growth = 1.02;         ///< largest ratio of successive steps
     double minimum = 0;           ///< us; the run stops when the step falls below
     double energy_residual_limit = 0.05;  ///< relative; the run stops above

@@ -201,7 +201,7 @@ Schema make_schema() {
         }},
         {.name = "step", .heading = "[step]", .meaning = "", .keys = {
             number("courant_solid", "0.6", "fraction of the stable step of total-Lagrangian parts", {0, 1, true}),
-            number("courant_fluid", "0.3", "fraction of the stable step of updated-Lagrangian parts", {0, 1, true}),
+            number("courant_fluid", "0.4", "fraction of the stable step of updated-Lagrangian parts", {0, 1, true}),
             number("growth", "1.02", "largest ratio of successive steps", at_least_one),
             or_default(quantity("minimum", dimension::time, "the run stops when the step falls below", not_negative), "\"0 us\""),
             number("energy_residual_limit", "0.05", "the run stops when the relative error of energy rises above", positive),
