@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contact: reactions, clearance, tightness, and the shared state of two materials that meet.
+#include "core_helpers.h"
+
+using namespace brisance;
+using namespace brisance::core_test;
+
+namespace {
+
+/// A copper plate whose face looks towards -x at x = 0.
+SolidPart<double> plate(int ny, int layers, double spacing, bool periodic, int nx = 4) {
+    return block(library("copper_ofhc"), {}, Lattice{nx, ny, layers, spacing, spacing, false, false, periodic, 0, -0.5 * ny * spacing, 0});
+}
+
+/// Moves a body's particles a little, at random, so that no symmetry makes sums vanish.
+void disturb(SolidPart<double>& s, double size, std::uint64_t seed) {
+    Random random(seed);
+    set_field(s.body, s.body.u, [&](Vec3<double>) { return Vec3<double>{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)}; });
+    set_field(s.body, s.body.v, [&](Vec3<double>) { return Vec3<double>{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)}; });
+    const std::array<Array<double>, 3> v = s.body.v;
+    respond_to(s);
+    s.body.v = v;
+    follow(s.surface, s.body, s.pairs, 0);
+}
+
+FluidPart disturbed_water(const FluidBox& box, double size, std::uint64_t seed) {
+    FluidPart f = fluid(library("water"), {}, box);
+    Random random(seed);
+    for (std::size_t i = 0; i < f.body.mass.size(); ++i)
+        for (std::size_t a = 0; a < 3; ++a) {
+            f.body.x[a][i] += random.uniform(-size, size);
+            f.body.v[a][i] = random.uniform(-0.2, 0.2);
+        }
+    if (f.body.period > 0)
+        for (double& z : f.body.x[2]) z -= f.body.period * std::floor((z - f.body.z_low) / f.body.period);
+    f.body.v_now = f.body.v;
+    f.body.rho_now = f.body.rho;
+    f.body.e_now = f.body.e;
+    f.solver.state(f.body, 0);
+    f.forces.begin(f.body);
+    return f;
+}
+
+struct Total {
+    double x = 0, y = 0, z = 0, size = 0;
+    void add(const std::vector<double>& fx, const std::vector<double>& fy, const std::vector<double>& fz) {
+        for (std::size_t i = 0; i < fx.size(); ++i) {
+            x += fx[i];
+            y += fy[i];
+            z += fz[i];
+            size += std::abs(fx[i]) + std::abs(fy[i]) + std::abs(fz[i]);
+        }
+    }
+    void expect_none() const {
+        EXPECT_GT(size, 0);
+        EXPECT_LT(std::abs(x) + std::abs(y) + std::abs(z), 1e-13 * size);
+    }
+};
+
+const ContactOptions rough{1, 0.05, 0.3, 1e-3};
+
+}  // namespace
+
+TEST(Contact, ReactionEqualsActionBetweenFluids) {
+    for (const bool periodic : {false, true})
+        for (const int nz : {1, 4}) {
+            FluidPart a = disturbed_water({0.2, 6, 6, nz, -1.2, -0.6, 0, periodic}, 0.05, 1);
+            FluidPart b = disturbed_water({0.2, 6, 6, nz, -0.08, -0.55, 0, periodic}, 0.05, 2);
+            const ContactReport r = node_contact(a.body, b.body, rough, a.forces, b.forces);
+            EXPECT_GT(r.touching, 5);
+            EXPECT_GT(r.penetration, 0);
+            Total t;
+            t.add(a.forces.fx, a.forces.fy, a.forces.fz);
+            t.add(b.forces.fx, b.forces.fy, b.forces.fz);
+            t.expect_none();
+        }
+}
+
+TEST(Contact, ReactionEqualsActionAtAWall) {
+    for (const bool periodic : {false, true})
+        for (const int nz : {1, 2, 8}) {
+            SolidPart<double> s = plate(12, nz, 0.25, periodic);
+            disturb(s, 0.01, 3);
+            FluidPart f = disturbed_water({0.125, 6, 16, 2 * nz, -0.7, -1, 0, periodic}, 0.02, 4);
+            const double period = periodic ? nz * 0.25 : 0;
+            const ContactReport r = wall_contact(f.body, s.surface, rough, 0, period, f.forces);
+            EXPECT_GT(r.touching, 10);
+            Total t;
+            t.add(f.forces.fx, f.forces.fy, f.forces.fz);
+            t.add(s.surface.fx, s.surface.fy, s.surface.fz);
+            t.expect_none();
+        }
+}
+
+TEST(Contact, ReactionEqualsActionBetweenSolids) {
+    for (const bool periodic : {false, true})
+        for (const int nz : {1, 2, 8}) {
+            SolidPart<double> wall = plate(10, nz, 0.25, periodic);
+            SolidPart<double> nodes = block(library("copper_ofhc"), {}, Lattice{5, 16, 2 * nz, 0.125, 0.125, false, false, periodic, -0.62, -1, 0});
+            disturb(wall, 0.01, 5);
+            disturb(nodes, 0.01, 6);
+            const double period = periodic ? nz * 0.25 : 0;
+            const ContactReport r = surface_contact(nodes.surface, wall.surface, rough, 0, period);
+            EXPECT_GT(r.touching, 5);
+            Total t;
+            t.add(nodes.surface.fx, nodes.surface.fy, nodes.surface.fz);
+            t.add(wall.surface.fx, wall.surface.fy, wall.surface.fz);
+            t.expect_none();
+        }
+}
+
+TEST(Contact, ClearanceIsABound) {
+    Random random(7);
+    for (int n = 0; n < 60; ++n) {
+        const double period = n % 2 ? random.uniform(0.3, 3) : 0, gap = random.uniform(0, 2);
+        std::array<std::vector<double>, 3> a, b;
+        for (int i = 0; i < 40; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double high = k == 2 && period > 0 ? period : 2;
+                a[k].push_back(random.uniform(0, high));
+                b[k].push_back(random.uniform(0, high) + (k == 0 ? 2 + gap : 0));
+            }
+        double nearest = 1e300;
+        for (std::size_t i = 0; i < 40; ++i)
+            for (std::size_t j = 0; j < 40; ++j)
+                for (int image = -8; image <= 8; ++image) {
+                    const double dz = a[2][i] - b[2][j] - image * period;
+                    nearest = std::min(nearest, std::sqrt(sq(a[0][i] - b[0][j]) + sq(a[1][i] - b[1][j]) + dz * dz));
+                }
+        const double range = 0.3, horizon = 0.8;
+        const double found = clearance(a[0].data(), a[1].data(), a[2].data(), 40, b[0].data(), b[1].data(), b[2].data(), 40, range, horizon, 0, period);
+        EXPECT_NEAR(found, std::clamp(nearest - range, 0.0, horizon), 1e-12);
+    }
+}
+
+// A piston of gas, fine against a coarse copper plate, hard driven: nothing may come through, and the balance closes.
+TEST(Contact, AFluidPistonDoesNotLeakThroughACopperWall) {
+    for (const double speed : {0.5, 3.0}) {
+        World<double> w;
+        w.period = 0.4;
+        w.solids.push_back(plate(24, 2, 0.2, true));
+        FluidPart f = fluid(library("water"), {}, {0.1, 14, 24, 4, -1.45, -1.2, 0});
+        std::fill(f.body.v[0].begin(), f.body.v[0].end(), speed);
+        w.fluids.push_back(std::move(f));
+        w.contacts.push_back({ContactPair::fluid_solid, 0, 0});
+        begin(w);
+        run(w, 1.0 / speed);
+        const Audit a = audit(w);
+        EXPECT_LT(a.momentum_residual, 1e-13);
+        EXPECT_LT(std::abs(a.residual_relative), 1e-12);
+        EXPECT_LT(a.penetration, 0.1);
+        const Surface& s = w.solids[0].surface;
+        const FluidBody& b = w.fluids[0].body;
+        int before = 0, through = 0;
+        for (std::size_t i = 0; i < b.mass.size(); ++i) {
+            if (std::abs(b.x[1][i]) > 2) continue;
+            double nearest = 1e300, face = 0;
+            for (std::size_t p = 0; p < s.size(); ++p)
+                if (s.nx[p] < -0.8 && std::abs(s.y[p] - b.x[1][i]) < nearest) {
+                    nearest = std::abs(s.y[p] - b.x[1][i]);
+                    face = s.x[p];
+                }
+            (b.x[0][i] > face + 0.05 ? through : before) += 1;
+        }
+        EXPECT_EQ(through, 0) << "at " << speed << " km/s";
+        EXPECT_GT(before, 1000);
+    }
+}
+
+TEST(Contact, FrictionActsAgainstTheSlip) {
+    SolidPart<double> s = plate(12, 4, 0.25, true);
+    follow(s.surface, s.body, s.pairs, 0);
+    for (const double friction : {0.0, 0.3}) {
+        FluidPart f = fluid(library("water"), {}, {0.125, 2, 8, 8, -0.2, -0.5, 0});
+        std::fill(f.body.v_now[1].begin(), f.body.v_now[1].end(), 0.2);
+        f.body.rho_now = f.body.rho;
+        f.body.e_now = f.body.e;
+        f.solver.state(f.body, 0);
+        f.forces.begin(f.body);
+        wall_contact(f.body, s.surface, {1, 0, friction, 0}, 0, 1, f.forces);
+        double normal = 0, along = 0;
+        for (std::size_t i = 0; i < f.body.mass.size(); ++i) {
+            normal += f.forces.fx[i];
+            along += f.forces.fy[i];
+        }
+        EXPECT_LT(normal, 0);
+        EXPECT_NEAR(along, friction * normal, 1e-12 * std::abs(normal));
+    }
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// The step of a whole world: balances with long and short steps, output times, and the same bits however many threads there are.
+#include "core_helpers.h"
+
+#include <cstring>
+
+using namespace brisance;
+using namespace brisance::core_test;
+
+namespace {
+
+/// Hot gas between two plates, a fine copper one and a coarse granite one that takes long steps.
+World<double> gas_between_plates(double zero_energy = 0.05) {
+    SolidOptions o;
+    o.zero_energy = zero_energy;
+    World<double> w;
+    w.period = 0.8;
+    const Lattice coarse{8, 10, 2, 0.4, 0.4, false, false, true, 1.0, -2, 0};
+    w.solids.push_back(block(elastic_granite(), o, coarse));
+    const Lattice fine{5, 20, 4, 0.2, 0.2, false, false, true, -1.0, -2, 0};
+    w.solids.push_back(block(library("copper_ofhc"), o, fine));
+    w.fluids.push_back(fluid(ideal_gas(1.4, 1, 1), {}, {0.1, 10, 30, 8, 0, -1.5, 0}));
+    w.contacts.push_back({ContactPair::fluid_solid, 0, 0});
+    w.contacts.push_back({ContactPair::fluid_solid, 0, 1});
+    w.contacts.push_back({ContactPair::solid_solid, 1, 0});
+    return w;
+}
+/// A load of no pressure: a part with a load takes no long steps.
+void keep_in_step(World<double>& w) {
+    for (SolidPart<double>& s : w.solids) s.loads.push_back({{0}, {0.0, 1.0}, {0.0, 0.0}});
+}
+
+double push_on(const SolidPart<double>& s) { return sums(s.body).px; }
+
+}  // namespace
+
+TEST(Step, MixedWorldKeepsItsBalances) {
+    World<double> w = gas_between_plates(0);
+    begin(w);
+    run(w, 1.5);
+    const Audit a = audit(w);
+    EXPECT_GT(w.short_steps, 2 * w.steps) << "the rock was to take long steps here";
+    EXPECT_LT(a.momentum_residual, 1e-12);
+    EXPECT_LT(std::abs(a.residual), 1e-12 * (w.start.internal[2]));
+    EXPECT_GT(a.kinetic, 0.05 * w.start.internal[2]);
+    EXPECT_EQ(a.torn, 0);
+}
+
+TEST(Step, LongStepsGiveWhatShortOnesDo) {
+    World<double> fast = gas_between_plates(), slow = gas_between_plates();
+    keep_in_step(fast);
+    for (World<double>* w : {&fast, &slow}) {
+        begin(*w);
+        run(*w, 1.5);
+        EXPECT_LT(audit(*w).momentum_residual, 1e-12);
+    }
+    EXPECT_EQ(fast.short_steps, fast.steps);
+    EXPECT_GT(slow.short_steps, 2 * slow.steps);
+    // momentum of the rock and of the copper, and the energy that went into each
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(push_on(slow.solids[k]), push_on(fast.solids[k]), 0.01 * std::abs(push_on(fast.solids[k])));
+        const BodySums a = sums(slow.solids[k].body), b = sums(fast.solids[k].body);
+        EXPECT_NEAR(a.kinetic + a.internal, b.kinetic + b.internal, 0.02 * (b.kinetic + b.internal));
+    }
+    EXPECT_NEAR(slow.fluids[0].solver.sums(slow.fluids[0].body).internal, fast.fluids[0].solver.sums(fast.fluids[0].body).internal,
+                0.002 * fast.fluids[0].solver.sums(fast.fluids[0].body).internal);
+}
+
+TEST(Step, OutputTimesAreMetWithoutSplinters) {
+    World<double> w = gas_between_plates();
+    begin(w);
+    double last = 1e300;
+    for (int n = 1; n <= 12; ++n) {
+        const double until = 0.0737 * n;
+        while (w.time < until) {
+            const double before = w.time;
+            step(w, until);
+            EXPECT_GT(w.time - before, 0);
+            if (n > 2) {
+                EXPECT_GT(w.dt, 0.2 * last);
+            }
+            last = w.dt;
+        }
+        EXPECT_EQ(w.time, until);
+        for (const SolidPart<double>& s : w.solids) EXPECT_EQ(s.time, w.time);
+    }
+}
+
+TEST(Step, AStepStopsBeforeItIsWorthless) {
+    World<double> w = gas_between_plates();
+    w.options.minimum = 1;  // us: more than any part bears
+    begin(w);
+    try {
+        step(w, 10);
+        FAIL() << "went on";
+    } catch (const PhysicsStop& stop) {
+        EXPECT_NE(std::string(stop.what()).find("held by"), std::string::npos);
+    }
+}
+
+TEST(Step, TheWatchdogNamesTheParticle) {
+    World<double> w = gas_between_plates();
+    begin(w);
+    step(w, 1);
+    w.fluids[0].body.v[0][77] = std::nan("");
+    try {
+        watch(w, audit(w));
+        FAIL() << "saw nothing";
+    } catch (const PhysicsStop& stop) {
+        EXPECT_NE(std::string(stop.what()).find("particle 77"), std::string::npos) << stop.what();
+    }
+}
+
+TEST(Step, SameBitsWithAnyNumberOfThreads) {
+    const int before = exec::threads();
+    std::vector<double> x;
+    for (const int threads : {1, 2, 3}) {
+        exec::set_threads(threads);
+        World<double> w = gas_between_plates();
+        begin(w);
+        run(w, 0.6);
+        std::vector<double> now(w.fluids[0].body.x[0].begin(), w.fluids[0].body.x[0].end());
+        for (const SolidPart<double>& s : w.solids) now.insert(now.end(), s.body.u[0].begin(), s.body.u[0].end());
+        now.push_back(audit(w).residual);
+        if (threads == 1) x = now;
+        ASSERT_EQ(x.size(), now.size());
+        EXPECT_EQ(std::memcmp(x.data(), now.data(), x.size() * sizeof(double)), 0) << threads << " threads";
+    }
+    exec::set_threads(before);
+}
