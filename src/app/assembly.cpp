@@ -79,8 +79,7 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
     f.mode = static_cast<int>(p.failure.mode);
     f.tensile = p.failure.tensile_strength.value_or(0);
     f.shear = p.failure.shear_strength.value_or(0);
-    f.label_tensile = c.analysis.tensile_strength;
-    f.label_shear = c.analysis.shear_strength;
+    f.notice = 0.3 * c.analysis.tensile_strength;
     f.threshold = c.analysis.damage_threshold;
     b.axis_x = c.analysis.axis.x;
     b.axis_y = c.analysis.axis.y;
@@ -122,6 +121,9 @@ FluidPart make_fluid(const Case& c, const PartData& p, const Placement& placemen
     FluidBody& b = f.body;
     b.name = p.name;
     b.material = make_material(p.material);
+    if (b.material.strength)
+        throw InputError(fmt::format("{}: part {} is updated_lagrangian, which knows fluids only, but {} has the strength law {}; use total_lagrangian", p.where, p.name,
+                                     p.material.name, b.material.strength->law()));
     b.options.smoothing = p.smoothing;
     b.options.alpha = p.viscosity.alpha;
     b.options.beta = p.viscosity.beta;

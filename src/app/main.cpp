@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <new>
+#include <unistd.h>
 
 namespace brisance {
 
@@ -89,7 +91,16 @@ int main_with_errors(int argc, char** argv) {
 }  // namespace
 }  // namespace brisance
 
+/// Threads that wait for each other must not spin for long on a machine that others use too. The OpenMP runtime reads its settings
+/// before main, so the program starts itself once more with them.
+void wait_politely(char** argv) {
+    if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+    setenv("GOMP_SPINCOUNT", "5000", 1);
+    execv("/proc/self/exe", argv);  // where this fails the run goes on as it is
+}
+
 int main(int argc, char** argv) {
+    wait_politely(argv);
     try {
         return brisance::main_with_errors(argc, argv);
     } catch (const brisance::Error& e) {

@@ -32,15 +32,15 @@ int spawn(const std::vector<std::string>& command, bool silent) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-/// An interpreter that has numpy, h5py and matplotlib: BRISANCE_PYTHON, Debian's, the first of the PATH.
+/// An interpreter that has numpy, scipy, h5py and matplotlib: BRISANCE_PYTHON, Debian's, the first of the PATH.
 std::string interpreter() {
     std::vector<std::string> candidates;
     if (const char* given = std::getenv("BRISANCE_PYTHON")) candidates.emplace_back(given);
     candidates.insert(candidates.end(), {"/usr/bin/python3", "python3"});
     for (const std::string& c : candidates)
-        if (spawn({c, "-c", "import numpy, h5py, matplotlib"}, true) == 0) return c;
-    throw ResourceError("no Python with numpy, h5py and matplotlib was found (tried BRISANCE_PYTHON, /usr/bin/python3, python3); on Debian: "
-                        "apt install python3-h5py python3-matplotlib");
+        if (spawn({c, "-c", "import numpy, scipy, h5py, matplotlib"}, true) == 0) return c;
+    throw ResourceError("no Python with numpy, scipy, h5py and matplotlib was found (tried BRISANCE_PYTHON, /usr/bin/python3, python3); on Debian: "
+                        "apt install python3-scipy python3-h5py python3-matplotlib");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/recorder.h"
 
+#include "analysis/failure_cause.h"
 #include "app/fracture.h"
 
 #include "math/eigen.h"
@@ -31,6 +32,14 @@ std::vector<CsvColumn> audit_columns(const World<R>& w) {
     c.push_back({"penetrating_pair", ""});
     for (const char* name : {"leaked", "torn", "damaged"}) c.push_back({name, "-"});
     return c;
+}
+
+/// Why a particle failed: from the largest stresses before its failure, over the strength of its place.
+template <class R>
+std::uint8_t cause_of(const SolidBody<R>& b, std::size_t i, const AnalysisData& a) {
+    if (b.failure_time[i] < 0) return 0;
+    const double scale = static_cast<double>(b.scale[i]);
+    return static_cast<std::uint8_t>(analysis::cause_of_failure(b.sigma_1[i] / scale, b.tau_max[i] / scale, a.tensile_strength, a.shear_strength));
 }
 
 }  // namespace
@@ -95,7 +104,7 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
           return CsvFile(run.file("history.csv"), columns);
       }()), snapshots_(run.snapshots()) {
     for (std::size_t i = 0; i < w.solids.size(); ++i)
-        if (w.solids[i].body.name == c.analysis.part) {
+        if (w.solids[i].body.name == c.analysis.part && c.analysis.zone_radii.size() > 1) {
             analysed_ = i;
             has_analysed_ = true;
         }
@@ -209,7 +218,7 @@ std::optional<Audit> Recorder<R>::record(const World<R>& w) {
         write_snapshot(w);
         for (std::size_t i = 0; i < sections_.size(); ++i)
             reports_[i].times.push_back(analysis::analyse_section(sample(w, sections_[i]), w.time, options_));
-        run_.write_text("analysis/analysis.json", analysis::to_json(fracture_report(w)));
+        if (has_analysed_) run_.write_text("analysis/analysis.json", analysis::to_json(fracture_report(w)));
     }
     return row;
 }
@@ -228,7 +237,7 @@ void Recorder<R>::finish(const World<R>& w) {
                       static_cast<double>(b.failure_time[static_cast<std::size_t>(sections_[i].slots[k])])});
         file.close();
     }
-    run_.write_text("analysis/analysis.json", analysis::to_json(fracture_report(w)));
+    if (has_analysed_) run_.write_text("analysis/analysis.json", analysis::to_json(fracture_report(w)));
 }
 
 template <class R>
@@ -242,7 +251,7 @@ analysis::SectionPoints Recorder<R>::sample(const World<R>& w, const Section& s)
         p.y.push_back(c.y - b.axis_y);
         p.size.push_back(std::sqrt(c.area));
         p.damage.push_back(b.state.empty() ? 0.0 : static_cast<double>(b.state[0][i]));
-        p.cause.push_back(b.cause[i]);
+        p.cause.push_back(cause_of(b, i, case_.analysis));
     }
     return p;
 }
@@ -285,7 +294,7 @@ void Recorder<R>::write_gauges(const World<R>& w) {
         g.file.row({w.time, c.x + static_cast<double>(b.u[0][i]), c.y + static_cast<double>(b.u[1][i]), c.z0 + k * b.layout.dz + static_cast<double>(b.u[2][i]),
                     pressure, p.one - pressure, p.two - pressure, p.three - pressure, 0.5 * (p.one - p.three), mises(s), static_cast<double>(b.yield[i]),
                     b.state.empty() ? 0.0 : static_cast<double>(b.state[0][i]), static_cast<double>(b.v[0][i]), static_cast<double>(b.v[1][i]),
-                    static_cast<double>(b.v[2][i]), static_cast<int>(b.cause[i])});
+                    static_cast<double>(b.v[2][i]), static_cast<int>(cause_of(b, i, case_.analysis))});
     }
 }
 
@@ -329,7 +338,7 @@ void Recorder<R>::write_snapshot(const World<R>& w) {
                 points.push_back(static_cast<float>(c.z0 + k * b.layout.dz + static_cast<double>(b.u[2][i])));
                 std::get<std::vector<std::uint8_t>>(part.values).push_back(number);
                 std::get<std::vector<std::int32_t>>(column.values).push_back(static_cast<std::int32_t>(n));
-                std::get<std::vector<std::uint8_t>>(cause.values).push_back(b.cause[i]);
+                std::get<std::vector<std::uint8_t>>(cause.values).push_back(cause_of(b, i, case_.analysis));
                 put(damage, b.state.empty() ? R(0) : b.state[0][i]);
                 put(pressure, b.pressure[i]);
                 put(velocity, b.v[0][i], b.v[1][i], b.v[2][i]);

@@ -52,7 +52,7 @@ Audit audit(const World<R>& w) {
         for (double m : f.body.mass) mass += m;
         scale += std::sqrt(2 * b.kinetic * mass);
     }
-    if (w.steps > 0 || w.start.step > 0) a.burn_released -= w.start.burn_released;
+    if (w.begun) a.burn_released -= w.start.burn_released;
     a.viscous = w.ledger.viscous;
     a.artificial = w.ledger.artificial;
     a.zero_energy_dissipated = w.ledger.zero_energy_lost;

@@ -115,6 +115,7 @@ void begin(World<R>& w) {
         if (s.body.options.pairwise) s.body.v_now = s.body.v;
     outer_forces(w);
     w.start = audit(w);
+    w.begun = true;
 }
 
 template <class R>

@@ -96,6 +96,7 @@ struct World {
     ContactReport contact_report;
     Vec3<double> force_from_outside{};  ///< platens and loads, mN
     Audit start;                   ///< the balance is held against this
+    bool begun = false;            ///< `start` stands
     std::int64_t torn = 0;
     std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part, and of contact
 };

@@ -12,11 +12,11 @@
 
 namespace brisance {
 
-/// Why a particle failed; see analysis/failure_cause.h for the rule.
+/// When a particle fails beside its law, and what is noted of it. Its cause follows from sigma_1 and tau_max (analysis/failure_cause.h).
 struct FailureRule {
     int mode = 0;                       ///< 0: the law alone; 1: no tension, no shear; 2: all stresses vanish (once damage is 1)
     double tensile = 0, shear = 0;      ///< GPa; principal-stress failure as a criterion of its own (0: off)
-    double label_tensile = 0, label_shear = 0;  ///< GPa; strengths that label the cause
+    double notice = 0;          ///< GPa; principal stresses are followed where the von Mises stress is above
     double threshold = 0.8;             ///< damage at which a particle counts as failed, and its failure time is noted
 };
 
@@ -54,7 +54,6 @@ struct SolidBody {
     Array<float> sigma_1, tau_max;               ///< GPa, largest before failure
     Array<float> failure_time;                   ///< us; negative: whole
     Array<float> yield;                          ///< GPa, strength in force
-    Array<std::uint8_t> cause;                   ///< analysis/failure_cause.h
 
     double axis_x = 0, axis_y = 0;   ///< radial stress is taken about this axis
     double energy_at_start = 0;      ///< J
@@ -104,7 +103,6 @@ void allocate(SolidBody<R>& b) {
     for (const StateInfo& info : b.material.strength->state()) b.state.emplace_back(n, R(info.initial));
     for (auto* a : {&b.peak_pressure, &b.peak_radial, &b.sigma_1, &b.tau_max, &b.yield}) a->assign(n, 0.0f);
     b.failure_time.assign(n, -1.0f);
-    b.cause.assign(n, 0);
     const R a0 = static_cast<R>(b.options.zero_energy * b.material.longitudinal_modulus());
     for (std::size_t i = 0; i < n; ++i)
         if (b.layout.flags[i] & slot_own) {

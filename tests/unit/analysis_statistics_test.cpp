@@ -70,7 +70,9 @@ TEST(FailureCause, IsTheStrengthThatWasPassed) {
     EXPECT_EQ(cause_of_failure(0.115, 0.2, 0.100, 0.265), Cause::tensile);
     EXPECT_EQ(cause_of_failure(0.107, 0.1, 0.100, 0.265), Cause::tensile);
     EXPECT_EQ(cause_of_failure(0.2, 0.3, 0.100, 0.265), Cause::mixed);
-    EXPECT_EQ(cause_of_failure(0.05, 0.1, 0.100, 0.265), Cause::mixed);
+    EXPECT_EQ(cause_of_failure(0.05, 0.1, 0.100, 0.265), Cause::tensile);  // neither passed: tension came nearer
+    EXPECT_EQ(cause_of_failure(0.02, 0.2, 0.100, 0.265), Cause::shear);
+    EXPECT_EQ(cause_of_failure(0.2, 0.3, 0, 0), Cause::mixed);
     EXPECT_EQ(cause_of_failure(0.2, 0.3, 0, 0.265), Cause::shear);
     static_assert(static_cast<int>(Cause::none) == 0 && static_cast<int>(Cause::mixed) == 3);
 }

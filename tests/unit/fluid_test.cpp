@@ -82,12 +82,12 @@ TEST(Fluid, RatesAreTheSumsOverAllPairs) {
 }
 
 TEST(Fluid, UniformGasStaysUniformFarFromItsEnds) {
-    FluidPart f = fluid(ideal_gas(1.4, 1, 2.5), {}, {0.1, 60, 2, 2});
+    FluidPart f = fluid(ideal_gas(1.4, 1, 2.5), {}, {0.1, 160, 2, 2});
     Tube t(f.body, 0.2, 0.6);
-    t.run(1.0, 0.3);  // sound travels 12 spacings
-    EXPECT_GT(t.steps, 20);
+    for (int n = 0; n < 20; ++n) t.step(0.02);  // in one step news comes as far as the support reaches, 2.6 spacings
+    EXPECT_GT(std::abs(t.b.v[0][0]), 0.1);      // the ends do move
     for (std::size_t i = 0; i < t.size(); ++i) {
-        if (std::abs(t.b.reference[0][i] - 3) > 1) continue;
+        if (std::abs(t.b.reference[0][i] - 8) > 2) continue;
         EXPECT_NEAR(t.b.rho[i], 1, 1e-12);
         EXPECT_NEAR(t.b.pressure[i], 1, 1e-12);
         for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(t.b.v[a][i], 0, 1e-12);
@@ -100,7 +100,7 @@ TEST(Fluid, MomentumAndEnergyAreExactInAnExpansion) {
     begin(w);
     run(w, 1.5);
     const Audit a = audit(w);
-    EXPECT_GT(w.steps, 20);
+    EXPECT_GT(w.steps, 10);
     EXPECT_LT(std::abs(a.residual), 1e-12 * (w.start.kinetic + w.start.internal[0]));
     EXPECT_LT(a.momentum_residual, 1e-13);
     EXPECT_GT(a.kinetic, 1.5 * w.start.kinetic);  // internal energy did turn into motion
@@ -128,8 +128,7 @@ TEST(Fluid, MovingFramesSeeTheSame) {
     for (double& v : moving.fluids[0].body.v[1]) v += 10;
     begin(rest);
     begin(moving);
-    for (World<double>* w : {&rest, &moving}) w->options.growth = 10;
-    for (int n = 0; n < 40; ++n) {
+    for (int n = 0; n < 12; ++n) {
         step(rest, 1e9);
         step(moving, 1e9);
     }

@@ -27,7 +27,7 @@ struct StressReport {
 };
 
 /// Pass 1: deformation, law, stress at t_n+1. `dt` is the drift that led here, `kick` the mean of that drift and the one before:
-/// with them the energy of every particle follows the kicks exactly, for any sequence of steps (docs/theory/integration.md).
+/// with them the energy of every particle follows the kicks exactly, for any sequence of steps (docs/theory/integration-and-energy.md).
 template <class R>
 StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick);
 
