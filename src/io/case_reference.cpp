@@ -133,7 +133,7 @@ Schema make_schema() {
             or_else(quantity("shear_strength", dimension::pressure, "largest shear stress at which a particle fails", positive), "off"),
         }},
         {.name = "heterogeneity", .heading = "[part.NAME.heterogeneity]", .meaning = "", .keys = {
-            {.name = "weibull_modulus", .type = Type::number, .meaning = "Weibull modulus of the strength", .range = positive},
+            {.name = "weibull_modulus", .type = Type::number, .meaning = "Weibull modulus of the strength; 0: homogeneous", .range = not_negative},
             quantity("correlation_length", dimension::length, "distance over which the strength is alike", positive),
             {.name = "seed", .type = Type::integer, .meaning = "seed of the field; it belongs to the rock, not to the arrangement", .fallback = "1", .range = not_negative},
         }},
