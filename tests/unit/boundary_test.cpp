@@ -87,7 +87,7 @@ TEST(Boundary, PlatensReturnWhatHitsThem) {
     EXPECT_GT(rock.px, 0.5 * 0.01 * 2.66 * 250 * 0.125);  // it has turned back
     double water = 0;
     for (std::size_t i = 0; i < w.fluids[0].body.mass.size(); ++i) water += w.fluids[0].body.mass[i] * w.fluids[0].body.v[0][i];
-    EXPECT_LT(water, 0.2 * 0.3 * 27);
+    EXPECT_LT(water, 0.25 * 0.3 * 27);  // much of it has splashed sideways
 }
 
 TEST(Boundary, PressureInAHolePushesEvenly) {

@@ -60,21 +60,30 @@ TEST(Step, MixedWorldKeepsItsBalances) {
 }
 
 TEST(Step, LongStepsGiveWhatShortOnesDo) {
-    World<double> fast = gas_between_plates(), slow = gas_between_plates();
-    keep_in_step(fast);
-    for (World<double>* w : {&fast, &slow}) {
-        begin(*w);
-        run(*w, 1.5);
-        EXPECT_LT(audit(*w).momentum_residual, 1e-12);
+    // The difference is of first order in the long step: contact over half of it is foreseen.
+    double off[2];
+    for (int half = 0; half < 2; ++half) {
+        World<double> fast = gas_between_plates(), slow = gas_between_plates();
+        keep_in_step(fast);
+        for (World<double>* w : {&fast, &slow}) {
+            w->options.courant_solid *= half ? 0.5 : 1;
+            w->options.courant_fluid *= half ? 0.5 : 1;
+            begin(*w);
+            run(*w, 1.5);
+            EXPECT_LT(audit(*w).momentum_residual, 1e-12);
+        }
+        EXPECT_EQ(fast.short_steps, fast.steps);
+        EXPECT_GT(slow.short_steps, 2 * slow.steps);
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_NEAR(given(slow.solids[k]), given(fast.solids[k]), 0.02 * std::abs(given(fast.solids[k])));
+            EXPECT_NEAR(mean_way(slow.solids[k]), mean_way(fast.solids[k]), 0.02 * std::abs(mean_way(fast.solids[k])));
+        }
+        off[half] = std::abs(mean_way(slow.solids[0]) / mean_way(fast.solids[0]) - 1);
+        std::printf("way of the rock with long steps of up to %d short ones: %.2f %% off\n", static_cast<int>(std::ceil(static_cast<double>(slow.short_steps) / slow.steps)), 100 * off[half]);
+        const double e = fast.fluids[0].solver.sums(fast.fluids[0].body).internal;
+        EXPECT_NEAR(slow.fluids[0].solver.sums(slow.fluids[0].body).internal, e, 0.003 * e);
     }
-    EXPECT_EQ(fast.short_steps, fast.steps);
-    EXPECT_GT(slow.short_steps, 2 * slow.steps);
-    for (std::size_t k = 0; k < 2; ++k) {
-        EXPECT_NEAR(given(slow.solids[k]), given(fast.solids[k]), 0.02 * std::abs(given(fast.solids[k])));
-        EXPECT_NEAR(mean_way(slow.solids[k]), mean_way(fast.solids[k]), 0.01 * std::abs(mean_way(fast.solids[k])));
-    }
-    EXPECT_NEAR(slow.fluids[0].solver.sums(slow.fluids[0].body).internal, fast.fluids[0].solver.sums(fast.fluids[0].body).internal,
-                0.002 * fast.fluids[0].solver.sums(fast.fluids[0].body).internal);
+    EXPECT_LT(off[1], 0.6 * off[0]);
 }
 
 TEST(Step, OutputTimesAreMetWithoutSplinters) {

@@ -127,7 +127,7 @@ struct Jh2 {
         const V s_eq = mises(trial);
         const V over = vmax(s_eq - y_old, zero);
         const V plastic = over * R(1 / (3 * G));
-        const V eps_f = R(D1) * power(reach, R(D2));
+        const V eps_f = R(D1) * p.scale * power(reach, R(D2));
         // one more than needed where the denominator vanishes: immediate failure
         const V growth = (eps_f > zero) ? plastic / vmax(eps_f, broadcast<V>(R(1e-30))) : one;
         const V d_new = (over > zero) ? vmin(damage + growth, one) : damage;

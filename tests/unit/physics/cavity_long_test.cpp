@@ -56,7 +56,7 @@ TEST(Cavity, StepOfPressureInABorehole) {
     struct Row { double r, tau, u, sigma_r, sigma_t; };
     const std::vector<Row> rows{{2, 1, 3.1509, -47.7209, 16.0747}, {2, 2, 4.5789, -31.4249, 31.0270}, {4, 1, 2.1276, -26.7002, 3.2862},
                                 {4, 2, 2.9501, -11.1069, 9.7962},  {2, 4, 4.7457, -20.0712, 34.6839}, {4, 4, 2.7722, -1.0464, 11.1043}};
-    const double spacing = a / 20, rise = 5 * spacing / c;
+    const double spacing = a / 20, rise = 10 * spacing / c;  // its middle counts as the step's time
     SolidOptions o;
     o.linear = 0.06;
     o.quadratic = 1.5;
@@ -82,20 +82,17 @@ TEST(Cavity, StepOfPressureInABorehole) {
 }
 
 TEST(Cavity, ThickRingAtRest) {
-    // a = 3.225, b = 16 mm under p: Lame, plane strain. Brought to rest by taking out the velocity wherever kinetic energy has a maximum.
-    const double b = 16, spacing = a / 10, G = 21.9, K = 25.7, lambda = K - 2.0 / 3 * G;
+    // a = 3.225, b = 16 mm under p: Lame, plane strain. Velocities fade by the damping of the slowest ringing until all is at rest.
+    const double b = 16, spacing = a / 16, G = 21.9, K = 25.7, lambda = K - 2.0 / 3 * G;
     World<double> w = pressed_ring(b, spacing, 1.5 * spacing, 0.05, {}, 0.5, p0);
     SolidBody<double>& body = w.solids[0].body;
     begin(w);
-    double before = 0, earlier = 0;
     while (w.time < 60) {
         step(w, 60);
-        const double now = sums(body).kinetic;
-        if (before > earlier && now < before && w.time > 1)
-            for (auto& v : body.v) std::fill(v.begin(), v.end(), 0.0);
-        earlier = before;
-        before = now;
+        for (auto& v : body.v)
+            for (double& x : v) x *= 1 - 0.5 * w.dt;
     }
+    EXPECT_LT(sums(body).kinetic, 1e-6 * sums(body).internal);
     const double A = p0 * a * a / (b * b - a * a);
     for (const double r : {1.5 * a, 2 * a, 3 * a, 4 * a}) {
         const Polar q = around(body, r, 0.75 * spacing);

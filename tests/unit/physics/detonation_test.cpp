@@ -8,7 +8,7 @@ using namespace brisance::core_test;
 TEST(Detonation, PlaneChargeOnARigidWall) {
     const Material petn = library("petn_1320_cj");
     const double D = 6.69, P_CJ = 16, d = 0.05;
-    const int n = 400;
+    const int n = 300;
     FluidPart f = fluid(petn, {}, {d, n, 1, 1});
     for (std::size_t i = 0; i < f.body.mass.size(); ++i) f.body.lit[i] = f.body.x[0][i] / D;
     Tube tube(f.body, d, 4 * d);
