@@ -2,7 +2,7 @@
 // Why a particle failed: a label from the largest stresses that it saw up to its failure. It steers nothing; damage does.
 #pragma once
 
-#include "math/hd.h"
+#include "base/hd.h"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 // the same source on packs.
 #pragma once
 
-#include "math/hd.h"
+#include "base/hd.h"
 
 #include <cstdint>
 

@@ -71,7 +71,9 @@ Placement place(const Shape& part, const std::vector<ShapePtr>& later, const Pla
             const Vec2 p = cloud.points[i];
             const double laplacian = (region.distance({p.x + s, p.y}) + region.distance({p.x - s, p.y}) + region.distance({p.x, p.y + s}) +
                                       region.distance({p.x, p.y - s}) - 4 * region.distance(p)) / (s * s);
-            c.wall_length = c.area / (2 * c.wall_distance) * std::clamp(1 + c.wall_distance * laplacian, 0.5, 2.0);
+            // The layer is as thick as the wall is far plus half of the gap to the next layer, which a graded spacing makes wider.
+            const double grown = cloud_options.spacing(p - c.wall_distance * cloud.wall_normal[i]) / cloud_options.spacing(p + s * cloud.wall_normal[i]);
+            c.wall_length = c.area / (c.wall_distance * (1 + grown)) * std::clamp(1 + c.wall_distance * laplacian, 0.5, 2.0);
         }
         out.section_area += c.area;
         out.columns.push_back(c);

@@ -3,7 +3,7 @@
 // (x > y) ? a : b works for both. In a build for CUDA a pack is one number everywhere, since there a thread is a lane.
 #pragma once
 
-#include "math/hd.h"
+#include "base/hd.h"
 
 #include <cmath>
 #include <cstdint>

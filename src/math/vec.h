@@ -2,7 +2,7 @@
 // Small vectors and matrices, templated on the scalar: float, double, or a SIMD pack of either (math/pack.h).
 #pragma once
 
-#include "math/hd.h"
+#include "base/hd.h"
 #include "math/pack.h"
 
 #include <cmath>

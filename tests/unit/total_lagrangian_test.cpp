@@ -445,7 +445,7 @@ TEST(TotalLagrangian, StableStepOfBodiesWithWalls) {
             o.spacing_z = z;
             o.slice = true;
             o.z_high = 8 * z;
-            const Placement placement = place(*make_annulus({0, 0, -1}, {0, 0, 20}, 3, 12), {}, o);
+            const Placement placement = place(*make_annulus({0, 0, -100}, {0, 0, 100}, 3, 12), {}, o);
             const std::string name = std::string("relaxed ring, spacing along z ") + (z == 1 ? "1" : "0.7");
             report((name + ", slice").c_str(), a, solid(elastic_granite(), options(a), placement.columns, placement.dz, true));
             report((name + ", free ends").c_str(), a, solid(elastic_granite(), options(a), placement.columns, placement.dz, false));
