@@ -124,8 +124,9 @@ void step(World<R>& w, double until) {
     const double start = w.time;
     for (SolidPart<R>& s : w.solids)
         if (s.slow) timed(w, s.body.name, [&] { advance(w, s, end - start); });
+    const bool alone = std::none_of(w.solids.begin(), w.solids.end(), [](const SolidPart<R>& s) { return s.slow; });
     while (w.time < end) {
-        const double dt = choose_short_step(w, end);
+        const double dt = alone ? end - w.time : choose_short_step(w, end);
         short_step(w, dt);
         if (end - w.time < 1e-9 * dt) w.time = end;
         if (w.time < end) timed(w, "contact", [&] { outer_forces(w); });
