@@ -2,9 +2,7 @@
 // brisance check: what a case will need. Runs nothing.
 #include "app/assembly.h"
 #include "app/commands.h"
-#include "base/error.h"
 #include "base/memory.h"
-#include "io/case_file.h"
 
 #include <fmt/format.h>
 
@@ -13,11 +11,9 @@
 namespace brisance {
 
 int check_command(const CaseOptions& o) {
-    std::vector<std::string> settings = o.settings;
-    if (!o.until.empty()) settings.push_back("run.until=" + o.until);
-    const Case c = read_case(o.file, o.preset, settings);
+    const Case c = open_case(o);
     const Estimate e = estimate(c);
-    const double memory = 1024.0 * available_memory_kib();
+    const double memory = available_memory();
     // A rate that this kind of loop reaches on one core; `brisance run` prints the true one.
     const double rate = 2.0e6 * exec::threads(), seconds = e.particles * e.steps / rate;
     if (o.json) {
@@ -34,15 +30,13 @@ int check_command(const CaseOptions& o) {
         for (const Estimate::Part& p : e.parts)
             fmt::print("{:<12} {:<18} {:<18} {:>9.3g} {:>9.3g} {:>9.3g} {:>13.0f} {:>12.5g} {:>10.0f} {:>9.2f}\n", p.name, p.material, p.formulation, p.spacing,
                        p.spacing_far, p.spacing_z, p.particles, 1e-3 * p.mass, p.bytes / 1048576, 1e3 * p.dt);
-        fmt::print("\n{:.4g} particles, {:.3g} GiB (free: {:.3g} GiB)\n", e.particles, e.bytes / 1073741824, memory / 1073741824);
+        fmt::print("\n{:.4g} particles, {:.3g} GiB (free: {:.3g} GiB)\n", e.particles, e.bytes / gibibyte, memory / gibibyte);
         fmt::print("first step {:.2f} ns, at least {:.0f} steps to {:g} us at that step; about {} on {} threads\n", 1e3 * e.dt, e.steps, c.until,
                    seconds < 3600 ? fmt::format("{:.0f} min", seconds / 60 + 1) : fmt::format("{:.1f} h", seconds / 3600), exec::threads());
         for (const PartData& p : c.parts)
             for (const std::string& r : make_material(p.material).remarks) fmt::print("{}: {}\n", p.material.name, r);
     }
-    if (e.bytes > memory)
-        throw ResourceError(fmt::format("this case does not fit: it needs about {:.3g} GiB for {:.4g} particles, {:.3g} GiB are free", e.bytes / 1073741824, e.particles,
-                                        memory / 1073741824));
+    require_memory(c, e);
     return 0;
 }
 

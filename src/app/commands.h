@@ -2,10 +2,14 @@
 // What the program can be asked to do. Each returns an exit code (base/error.h); errors are thrown.
 #pragma once
 
+#include "io/case.h"
+
 #include <string>
 #include <vector>
 
 namespace brisance {
+
+struct Estimate;
 
 /// What the commands on a case have in common.
 struct CaseOptions {
@@ -19,13 +23,18 @@ struct CaseOptions {
     std::string command;  ///< the whole command line, for the provenance
 };
 
+/// Sets the threads and reads the case with its preset and settings.
+Case open_case(const CaseOptions& o);
+/// Throws ResourceError where the estimate is above what the machine has free.
+void require_memory(const Case& c, const Estimate& e);
+
 int check_command(const CaseOptions& o);
 int run_command(const CaseOptions& o);
 int analyze_command(const std::string& run, bool json);
 int report_command(const std::vector<std::string>& runs, const std::string& out, bool pdf);
 int view_command(const std::string& run);
 int materials_command(const std::string& name, bool json);
-int reference_command(const std::string& what);
+int reference_command();
 
 /// Runs one of the Python scripts with an interpreter that has the modules; returns its exit code.
 int run_python(const std::string& script, const std::vector<std::string>& arguments);

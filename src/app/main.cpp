@@ -14,7 +14,7 @@
 
 namespace brisance {
 
-int reference_command(const std::string&) {
+int reference_command() {
     fmt::print("{}", case_file_reference());
     return 0;
 }
@@ -77,7 +77,7 @@ int main_with_errors(int argc, char** argv) {
     materials->callback([&] { code = materials_command(name, json); });
 
     CLI::App* reference = app.add_subcommand("reference", "every key of a case file, as Markdown");
-    reference->callback([&] { code = reference_command(""); });
+    reference->callback([&] { code = reference_command(); });
 
     try {
         app.parse(argc, argv);

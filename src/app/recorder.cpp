@@ -34,6 +34,11 @@ std::vector<CsvColumn> audit_columns(const World<R>& w) {
     return c;
 }
 
+/// The layer of a column nearest to a height.
+int nearest_layer(const Columns& layout, const Column& c, double z) {
+    return std::clamp(static_cast<int>(std::lround((z - c.z0) / layout.dz)), 0, c.layers - 1);
+}
+
 /// Why a particle failed: from the largest stresses before its failure, over the strength of its place.
 template <class R>
 std::uint8_t cause_of(const SolidBody<R>& b, std::size_t i, const AnalysisData& a) {
@@ -122,7 +127,7 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
             Section section{s, {}, {}};
             for (std::size_t i = 0; i < b.layout.columns.size(); ++i) {
                 const Column& column = b.layout.columns[i];
-                const int k = std::clamp(static_cast<int>(std::lround((s.z - column.z0) / b.layout.dz)), 0, column.layers - 1);
+                const int k = nearest_layer(b.layout, column, s.z);
                 if (!(b.layout.flags[static_cast<std::size_t>(column.start + k)] & slot_own)) continue;
                 section.slots.push_back(column.start + k);
                 section.columns.push_back(i);
@@ -143,7 +148,7 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
             const double z = c.slice ? c.slice->z : g.at.z;
             for (std::size_t i = 0; i < b.layout.columns.size(); ++i) {
                 const Column& column = b.layout.columns[i];
-                const int k = std::clamp(static_cast<int>(std::lround((z - column.z0) / b.layout.dz)), 0, column.layers - 1);
+                const int k = nearest_layer(b.layout, column, z);
                 const double dx = column.x - g.at.x, dy = column.y - g.at.y, dz = column.z0 + k * b.layout.dz - z;
                 const double d = dx * dx + dy * dy + dz * dz;
                 if (d < best && (b.layout.flags[static_cast<std::size_t>(column.start + k)] & slot_own)) {
@@ -170,19 +175,19 @@ std::optional<Audit> Recorder<R>::record(const World<R>& w) {
     const bool snapshot_due = next_snapshot_ < case_.output.snapshot_times.size() && w.time >= case_.output.snapshot_times[next_snapshot_] - slack;
     if (w.time >= next_history_ - slack || snapshot_due) {
         while (next_history_ <= w.time + slack) next_history_ += case_.output.history_interval;
-        last_ = audit(w);
+        const Audit a = audit(w);
         leaked_ = count_leaks(w);
-        write_audit(w, last_);
+        write_audit(a);
         write_gauges(w);
         std::vector<double> damaged{w.time};
         for (const Section& s : sections_) {
             const SolidBody<R>& b = w.solids[analysed_].body;
             damaged.push_back(static_cast<double>(std::count_if(s.slots.begin(), s.slots.end(), [&](std::int64_t slot) {
-                return !b.state.empty() && static_cast<double>(b.state[0][static_cast<std::size_t>(slot)]) > options_.threshold;
+                return b.damage(static_cast<std::size_t>(slot)) > options_.threshold;
             })));
         }
         if (!has_analysed_) damaged.resize(1 + sections_of(case_).size(), 0);
-        damaged.push_back(static_cast<double>(last_.damaged));
+        damaged.push_back(static_cast<double>(a.damaged));
         history_.row(damaged);
         if (has_analysed_) {
             const Surface& s = w.solids[analysed_].surface;
@@ -211,7 +216,7 @@ std::optional<Audit> Recorder<R>::record(const World<R>& w) {
                 front_.value.push_back(low);
             }
         }
-        row = last_;
+        row = a;
     }
     if (snapshot_due) {
         ++next_snapshot_;
@@ -250,7 +255,7 @@ analysis::SectionPoints Recorder<R>::sample(const World<R>& w, const Section& s)
         p.x.push_back(c.x - b.axis_x);
         p.y.push_back(c.y - b.axis_y);
         p.size.push_back(std::sqrt(c.area));
-        p.damage.push_back(b.state.empty() ? 0.0 : static_cast<double>(b.state[0][i]));
+        p.damage.push_back(b.damage(i));
         p.cause.push_back(cause_of(b, i, case_.analysis));
     }
     return p;
@@ -293,13 +298,13 @@ void Recorder<R>::write_gauges(const World<R>& w) {
         const double k = static_cast<double>(g.slot - c.start);
         g.file.row({w.time, c.x + static_cast<double>(b.u[0][i]), c.y + static_cast<double>(b.u[1][i]), c.z0 + k * b.layout.dz + static_cast<double>(b.u[2][i]),
                     pressure, p.one - pressure, p.two - pressure, p.three - pressure, 0.5 * (p.one - p.three), mises(s), static_cast<double>(b.yield[i]),
-                    b.state.empty() ? 0.0 : static_cast<double>(b.state[0][i]), static_cast<double>(b.v[0][i]), static_cast<double>(b.v[1][i]),
+                    b.damage(i), static_cast<double>(b.v[0][i]), static_cast<double>(b.v[1][i]),
                     static_cast<double>(b.v[2][i]), static_cast<int>(cause_of(b, i, case_.analysis))});
     }
 }
 
 template <class R>
-void Recorder<R>::write_audit(const World<R>& w, const Audit& a) {
+void Recorder<R>::write_audit(const Audit& a) {
     std::vector<CsvCell> row{a.step, a.time, a.dt, a.limiter, a.kinetic};
     for (double e : a.internal) row.emplace_back(e);
     for (double e : {a.burn_released, a.viscous, a.zero_energy, a.zero_energy_dissipated, a.contact_stored, a.contact_dissipated, a.boundary_work, a.artificial,
@@ -310,7 +315,6 @@ void Recorder<R>::write_audit(const World<R>& w, const Audit& a) {
     row.emplace_back(a.torn);
     row.emplace_back(a.damaged);
     audit_.row(row);
-    (void)w;
 }
 
 template <class R>
@@ -339,7 +343,7 @@ void Recorder<R>::write_snapshot(const World<R>& w) {
                 std::get<std::vector<std::uint8_t>>(part.values).push_back(number);
                 std::get<std::vector<std::int32_t>>(column.values).push_back(static_cast<std::int32_t>(n));
                 std::get<std::vector<std::uint8_t>>(cause.values).push_back(cause_of(b, i, case_.analysis));
-                put(damage, b.state.empty() ? R(0) : b.state[0][i]);
+                put(damage, b.damage(i));
                 put(pressure, b.pressure[i]);
                 put(velocity, b.v[0][i], b.v[1][i], b.v[2][i]);
                 put(displacement, b.u[0][i], b.u[1][i], b.u[2][i]);

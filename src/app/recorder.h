@@ -26,7 +26,6 @@ public:
     /// Final analysis and section files.
     void finish(const World<R>& w);
 
-    const Audit& last_audit() const { return last_; }
     std::int64_t leaked() const { return leaked_; }
 
 private:
@@ -46,7 +45,7 @@ private:
     analysis::FractureReport fracture_report(const World<R>& w) const;
     void write_gauges(const World<R>& w);
     void write_snapshot(const World<R>& w);
-    void write_audit(const World<R>& w, const Audit& a);
+    void write_audit(const Audit& a);
 
     const Case& case_;
     const RunDirectory& run_;
@@ -61,7 +60,6 @@ private:
     SnapshotSeries snapshots_;
     double next_history_ = 0;
     std::size_t next_snapshot_ = 0;
-    Audit last_;
     std::int64_t leaked_ = 0;
 };
 

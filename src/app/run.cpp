@@ -4,8 +4,6 @@
 #include "app/commands.h"
 #include "app/recorder.h"
 #include "base/error.h"
-#include "base/memory.h"
-#include "io/case_file.h"
 #include "io/log.h"
 
 #include <fmt/format.h>
@@ -26,7 +24,7 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
 }
 
-/// Wall time by kind of work, for the rates in the provenance.
+/// Particles by part, for the provenance.
 template <class R>
 std::vector<std::pair<std::string, std::uint64_t>> particle_counts(const World<R>& w) {
     std::vector<std::pair<std::string, std::uint64_t>> n;
@@ -123,16 +121,8 @@ int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log&
 }  // namespace
 
 int run_command(const CaseOptions& o) {
-    if (o.threads > 0) exec::set_threads(o.threads);
-    std::vector<std::string> settings = o.settings;
-    if (!o.until.empty()) settings.push_back("run.until=" + o.until);
-    const Case c = read_case(o.file, o.preset, settings);
-    const Estimate e = estimate(c);
-    const double memory = 1024.0 * available_memory_kib();
-    if (e.bytes > memory)
-        throw ResourceError(fmt::format("{} needs about {:.3g} GiB for {:.3g} particles; this machine has {:.3g} GiB free. Coarser: --preset or "
-                                        "--set rock.spacing=...",
-                                        c.file, e.bytes / 1073741824.0, e.particles, memory / 1073741824.0));
+    const Case c = open_case(o);
+    require_memory(c, estimate(c));
     const RunDirectory directory(o.out.empty() ? RunDirectory::default_path(o.file, o.preset) : std::filesystem::path(o.out), o.overwrite);
     Log::Options log_options;
     log_options.quiet = o.quiet;

@@ -6,11 +6,11 @@
 
 namespace brisance {
 
-double available_memory_kib() {
+double available_memory() {
     std::ifstream info("/proc/meminfo");
     for (std::string key; info >> key;) {
         double value = 0;
-        if (key == "MemAvailable:" && info >> value) return value;
+        if (key == "MemAvailable:" && info >> value) return 1024 * value;
     }
     return 1e18;
 }

@@ -3,7 +3,9 @@
 
 namespace brisance {
 
-/// What the kernel says can be had without swapping (MemAvailable), KiB; a large number where it says nothing.
-double available_memory_kib();
+inline constexpr double gibibyte = 1073741824;
+
+/// What the kernel says can be had without swapping (MemAvailable), bytes; a large number where it says nothing.
+double available_memory();
 
 }  // namespace brisance

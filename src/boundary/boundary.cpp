@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boundary/boundary.h"
 
+#include "neighbours/deformation.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -106,19 +108,15 @@ ContactReport press(SolidPlaten& p, const SolidBody<R>& body) {
 }
 
 template <class R>
-double push(const SolidPlaten& p, SolidBody<R>& body, double kick) {
-    double work = 0;
+void push(const SolidPlaten& p, SolidBody<R>& body, double kick) {
     for (std::size_t i = 0; i < p.slots.size(); ++i) {
         const auto slot = static_cast<std::size_t>(p.slots[i]);
         const double f[3] = {p.fx[i], p.fy[i], p.fz[i]};
         for (std::size_t k = 0; k < 3; ++k) {
-            const double before = static_cast<double>(body.v[k][slot]);
             body.v[k][slot] += static_cast<R>(kick * f[k] / p.mass[i]);
-            work += 0.5 * kick * f[k] * (before + static_cast<double>(body.v[k][slot]));
             if (body.options.pairwise) body.acceleration[k][slot] += static_cast<R>(f[k] / p.mass[i]);
         }
     }
-    return work;
 }
 
 double WallPressure::at(double time) const {
@@ -147,19 +145,11 @@ void press(const WallPressure& w, double time, const SolidBody<R>& b, const Colu
     for (std::size_t n = 0; n < w.points.size(); ++n) {
         const std::size_t i = w.points[n];
         const auto c = static_cast<std::size_t>(s.column[i]), slot = static_cast<std::size_t>(s.slot[i]);
-        const double* k = pairs.k_inverse.data() + 6 * c;
-        Mat3<double> r;
-        double* rs[9] = {&r.xx, &r.xy, &r.xz, &r.yx, &r.yy, &r.yz, &r.zx, &r.zy, &r.zz};
-        for (std::size_t m = 0; m < 9; ++m) *rs[m] = static_cast<double>(b.R_sum[m][slot]);
-        Mat3<double> f = r * Sym3<double>{k[0], k[1], k[2], k[3], k[4], k[5]};
-        f.xx += 1;
-        f.yy += 1;
-        f.zz += 1;
+        const Mat3<double> f = deformation_gradient(b, pairs, c, slot);
         const double jacobian = det(f);
-        Vec3<double> area = cofactor(f) * Vec3<double>{b.layout.columns[c].wall_normal_x, b.layout.columns[c].wall_normal_y, 0};
-        const double grown = norm(area);
-        if (!(b.live[slot] > R(0)) || !(jacobian > 0.2 && jacobian < 5) || !(grown < 3))  // torn or crushed: the area it had
-            area = {b.layout.columns[c].wall_normal_x, b.layout.columns[c].wall_normal_y, 0};
+        const Vec3<double> normal{b.layout.columns[c].wall_normal_x, b.layout.columns[c].wall_normal_y, 0};
+        Vec3<double> area = cofactor(f) * normal;
+        if (!(b.live[slot] > R(0)) || !(jacobian > 0.2 && jacobian < 5) || !(norm(area) < 3)) area = normal;  // torn or crushed: the area it had
         load[n] = (-pressure * s.area[i]) * area;
         s.fx[i] += load[n].x;
         s.fy[i] += load[n].y;
@@ -172,7 +162,7 @@ void press(const WallPressure& w, double time, const SolidBody<R>& b, const Colu
     template void hold(const FixedPlane&, SolidBody<R>&, double*);                                                                    \
     template SolidPlaten make_solid_platen(const SolidBody<R>&, const Platen&);                                                       \
     template ContactReport press(SolidPlaten&, const SolidBody<R>&);                                                                  \
-    template double push(const SolidPlaten&, SolidBody<R>&, double);                                                                   \
+    template void push(const SolidPlaten&, SolidBody<R>&, double);                                                                     \
     template WallPressure make_wall_pressure(const SolidBody<R>&, const Surface&, const Shape&, std::vector<double>, std::vector<double>); \
     template void press(const WallPressure&, double, const SolidBody<R>&, const ColumnPairs<R>&, Surface&, std::vector<Vec3<double>>&);
 BRISANCE_INSTANTIATE(double)

@@ -33,8 +33,8 @@ struct SolidPlaten {
 };
 template <class R> SolidPlaten make_solid_platen(const SolidBody<R>& body, const Platen& platen);
 template <class R> ContactReport press(SolidPlaten& platen, const SolidBody<R>& body);
-/// v += kick f/m; returns the work done, J.
-template <class R> double push(const SolidPlaten& platen, SolidBody<R>& body, double kick);
+/// v += kick f/m.
+template <class R> void push(const SolidPlaten& platen, SolidBody<R>& body, double kick);
 
 /// Pressure on the points of a solid's wall that lie inside a shape (reference configuration): f = -p(t) A cof(F) N.
 struct WallPressure {

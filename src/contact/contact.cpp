@@ -81,6 +81,11 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
     static CellGrid walls, points;  // kept between steps for their memory; contact is not re-entrant
     walls.build(wx.data(), wy.data(), wz.data(), static_cast<std::int64_t>(active.size()), coarsest, reach, z_low, period);
     std::vector<Touch> touch(static_cast<std::size_t>(nodes.n));
+    // omega_ij of node i, moved by `shift` along z, and point j: both passes below take it
+    const auto omega = [&](std::size_t i, std::size_t j, double shift, double& gap) {
+        const bool away = nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3;
+        return away ? 0.0 : weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] + shift, nodes.radius[i], gap);
+    };
 
     exec::for_each(nodes.n, [&](std::int64_t n) {
         const auto i = static_cast<std::size_t>(n);
@@ -99,9 +104,8 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
                 const auto j = static_cast<std::size_t>(active[static_cast<std::size_t>(walls.index(k))]);
-                if (nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3) continue;
                 double gap;
-                const double w = weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] - walls.shift(k), nodes.radius[i], gap);
+                const double w = omega(i, j, -walls.shift(k), gap);
                 if (w == 0) continue;
                 t.weights += w;
                 gap_sum += w * gap;
@@ -173,9 +177,8 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
             for (std::int64_t k = first; k < last; ++k) {
                 const auto i = static_cast<std::size_t>(touching[static_cast<std::size_t>(points.index(k))]);
                 const Touch& t = touch[i];
-                if (nodes.oriented && nodes.nx[i] * wall.nx[j] + nodes.ny[i] * wall.ny[j] + nodes.nz[i] * wall.nz[j] > -0.3) continue;
                 double gap;
-                const double w = weight(wall, j, nodes.x[i], nodes.y[i], nodes.z[i] + points.shift(k), nodes.radius[i], gap);
+                const double w = omega(i, j, points.shift(k), gap);
                 if (w == 0) continue;
                 wall.fx[j] -= w / t.weights * t.fx;
                 wall.fy[j] -= w / t.weights * t.fy;

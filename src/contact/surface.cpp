@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/contact.h"
 
+#include "neighbours/deformation.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,14 +37,7 @@ void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs, doub
     exec::for_each(static_cast<std::int64_t>(s.size()), [&](std::int64_t i) {
         const auto p = static_cast<std::size_t>(i), slot = static_cast<std::size_t>(s.slot[p]), c = static_cast<std::size_t>(s.column[p]);
         const Column& column = b.layout.columns[c];
-        const double* k = pairs.k_inverse.data() + 6 * c;
-        Mat3<double> r;
-        double* rs[9] = {&r.xx, &r.xy, &r.xz, &r.yx, &r.yy, &r.yz, &r.zx, &r.zy, &r.zz};
-        for (std::size_t n = 0; n < 9; ++n) *rs[n] = static_cast<double>(b.R_sum[n][slot]);
-        Mat3<double> f = r * Sym3<double>{k[0], k[1], k[2], k[3], k[4], k[5]};
-        f.xx += 1;
-        f.yy += 1;
-        f.zz += 1;
+        const Mat3<double> f = deformation_gradient(b, pairs, c, slot);
         const Vec3<double> normal{column.wall_normal_x, column.wall_normal_y, 0};
         Vec3<double> n = cofactor(f) * normal;
         double length = norm(n), jacobian = det(f);

@@ -75,7 +75,6 @@ Placement place(const Shape& part, const std::vector<ShapePtr>& later, const Pla
             const double grown = cloud_options.spacing(p - c.wall_distance * cloud.wall_normal[i]) / cloud_options.spacing(p + s * cloud.wall_normal[i]);
             c.wall_length = c.area / (c.wall_distance * (1 + grown)) * std::clamp(1 + c.wall_distance * laplacian, 0.5, 2.0);
         }
-        out.section_area += c.area;
         out.columns.push_back(c);
     }
     if (out.columns.empty()) throw InputError(fmt::format("part {}: no particle fits at a spacing of {:g} mm", o.name, o.spacing));

@@ -30,7 +30,6 @@ struct Placement {
     std::vector<Column> columns;  ///< without slots
     double dz = 0;                ///< mm; divides the height evenly
     double z_low = 0;             ///< mm
-    double section_area = 0;      ///< mm2
 };
 
 /// Places the columns of `part`, from which every shape in `later` is cut. Throws InputError where nothing is left.

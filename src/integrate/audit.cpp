@@ -22,36 +22,26 @@ Audit audit(const World<R>& w) {
     a.dt = w.dt;
     a.limiter = w.limiter;
     double scale = 0;
-    for (const SolidPart<R>& s : w.solids) {
-        const BodySums b = sums(s.body);
-        a.kinetic += b.kinetic;
-        a.internal.push_back(b.internal);
-        a.zero_energy += s.report.zero_energy;
-        a.momentum[0] += b.px;
-        a.momentum[1] += b.py;
-        a.momentum[2] += b.pz;
-        a.damaged += b.damaged;
-        for (std::size_t p = 0; p < s.surface.size(); ++p) {  // impulse that the other side has not given yet
-            a.momentum[0] -= s.surface.jx[p];
-            a.momentum[1] -= s.surface.jy[p];
-            a.momentum[2] -= s.surface.jz[p];
-        }
-        double mass = 0;
-        for (const Column& c : s.body.layout.columns) mass += s.body.mass(c) * c.layers;
-        scale += std::sqrt(2 * b.kinetic * mass);
-    }
-    for (const FluidPart& f : w.fluids) {
-        const FluidSums b = f.solver.sums(f.body);
+    const auto add = [&](const BodySums& b) {
         a.kinetic += b.kinetic;
         a.internal.push_back(b.internal - b.unburnt);
         a.burn_released -= b.unburnt;
         a.momentum[0] += b.px;
         a.momentum[1] += b.py;
         a.momentum[2] += b.pz;
-        double mass = 0;
-        for (double m : f.body.mass) mass += m;
-        scale += std::sqrt(2 * b.kinetic * mass);
+        a.damaged += b.damaged;
+        scale += std::sqrt(2 * b.kinetic * b.mass);
+    };
+    for (const SolidPart<R>& s : w.solids) {
+        add(sums(s.body));
+        a.zero_energy += s.report.zero_energy;
+        for (std::size_t p = 0; p < s.surface.size(); ++p) {  // impulse that the other side has not given yet
+            a.momentum[0] -= s.surface.jx[p];
+            a.momentum[1] -= s.surface.jy[p];
+            a.momentum[2] -= s.surface.jz[p];
+        }
     }
+    for (const FluidPart& f : w.fluids) add(f.solver.sums(f.body));
     if (w.begun) a.burn_released -= w.start.burn_released;
     a.viscous = w.ledger.viscous;
     a.artificial = w.ledger.artificial;
@@ -100,7 +90,7 @@ void watch(const World<R>& w, const Audit& a) {
                 row = fmt::format("part {}, reference ({:.3f}, {:.3f}, {:.3f}) mm, u = ({:.4g}, {:.4g}, {:.4g}) mm, v = ({:.4g}, {:.4g}, {:.4g}) km/s, "
                                   "P = {:.4g} GPa, energy = {:.4g} GPa, damage = {:.3g}",
                                   s.body.name, c.x, c.y, c.z0 + k * s.body.layout.dz, s.body.u[0][i], s.body.u[1][i], s.body.u[2][i], vx, vy, vz,
-                                  s.body.pressure[i], s.body.energy[i], s.body.state.empty() ? R(0) : s.body.state[0][i]);
+                                  s.body.pressure[i], s.body.energy[i], s.body.damage(i));
             }
     for (const FluidPart& f : w.fluids)
         for (std::size_t i = 0; i < f.body.mass.size(); ++i) {

@@ -4,8 +4,7 @@
 //   v_n+1/2 = v_n-1/2 + (dt_n-1 + dt_n)/2 a_n,   x_n+1 = x_n + dt_n v_n+1/2
 //
 // Parts whose stable step is long (the rock) take one step while the others take several; between, their walls drift with their
-// velocity, and contact is handed over as impulse (contact/contact.h: push_ahead, give).
-#include "base/error.h"
+// velocity, and contact is handed over as impulse (contact/contact.h: plan_ahead, give).
 #include "integrate/outer_forces.h"
 #include "integrate/step_size.h"
 #include "integrate/world.h"
@@ -75,6 +74,7 @@ void advance(Ledger& ledger, FluidPart& f, double kick_time, double dt) {
 void respond(Ledger& ledger, FluidPart& f, double time, double dt) {
     f.solver.state(f.body, time);
     const FluidSolver::Powers p = f.solver.rates(f.body);
+    f.rate = f.solver.stable_rate(f.body);
     ledger.viscous += p.viscous * dt;
     ledger.artificial += p.artificial * dt;
 }
@@ -108,8 +108,7 @@ void begin(World<R>& w) {
         b.v_now = b.v;
         b.rho_now = b.rho;
         b.e_now = b.e;
-        f.solver.state(b, w.time);
-        f.solver.rates(b);
+        respond(w.ledger, f, w.time, 0);
     }
     for (SolidPart<R>& s : w.solids)
         if (s.body.options.pairwise) s.body.v_now = s.body.v;

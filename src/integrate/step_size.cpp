@@ -42,9 +42,7 @@ double fast_limit(World<R>& w) {
     for (const SolidPart<R>& s : w.solids)
         if (!s.slow) bound(solid_limit(w, s), s.body.name + ": wave");
     for (const FluidPart& f : w.fluids) {
-        std::int64_t worst;
-        const double rate = f.solver.stable_rate(f.body, worst);
-        if (rate > 0) bound(w.options.courant_fluid / rate, f.body.name + ": wave");
+        if (f.rate > 0) bound(w.options.courant_fluid / f.rate, f.body.name + ": wave");
         const bool burning = f.body.material.burn && std::any_of(f.body.burnt.begin(), f.body.burnt.end(), [](double b) { return b < 1; });
         if (burning) bound(0.25 * f.body.spacing / f.body.material.burn->speed, f.body.name + ": burn");
     }
@@ -71,9 +69,7 @@ double choose_step(World<R>& w, double until) {
     for (SolidPart<R>& s : w.solids) s.slow = false;
     double fluids = 1e300, fluid_particles = 0;
     for (const FluidPart& f : w.fluids) {
-        std::int64_t worst;
-        const double rate = f.solver.stable_rate(f.body, worst);
-        if (rate > 0) fluids = std::min(fluids, w.options.courant_fluid / rate);
+        if (f.rate > 0) fluids = std::min(fluids, w.options.courant_fluid / f.rate);
         fluid_particles += static_cast<double>(f.body.size());
     }
     // Solids with the longest limits are slow. How many: the division that costs least, particles times steps per time.

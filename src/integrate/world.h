@@ -33,6 +33,7 @@ struct FluidPart {
     FluidSolver solver;
     FluidForces forces;
     std::vector<Platen> platens;
+    double rate = 0;  ///< 1/us, largest stable rate of the present state
 };
 
 /// A pair of parts in contact: indices into solids or fluids.

@@ -82,6 +82,14 @@ template <class R> BRISANCE_HD Mat3<R> transpose(const Mat3<R>& a) {
 template <class R> BRISANCE_HD R det(const Mat3<R>& a) {
     return a.xx * (a.yy * a.zz - a.yz * a.zy) - a.xy * (a.yx * a.zz - a.yz * a.zx) + a.xz * (a.yx * a.zy - a.yy * a.zx);
 }
+template <class R> BRISANCE_HD R det(const Sym3<R>& a) {
+    return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
+}
+/// a b^T where it is known to be symmetric, as for q s q^T = (q s) q^T and a a^T.
+template <class R> BRISANCE_HD Sym3<R> symmetric_product(const Mat3<R>& a, const Mat3<R>& b) {
+    return {a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, a.yx * b.yx + a.yy * b.yy + a.yz * b.yz, a.zx * b.zx + a.zy * b.zy + a.zz * b.zz,
+            a.xx * b.yx + a.xy * b.yy + a.xz * b.yz, a.xx * b.zx + a.xy * b.zy + a.xz * b.zz, a.yx * b.zx + a.yy * b.zy + a.yz * b.zz};
+}
 /// Cofactor matrix: det(a) a^-T.
 template <class R> BRISANCE_HD Mat3<R> cofactor(const Mat3<R>& a) {
     return {a.yy * a.zz - a.yz * a.zy, a.yz * a.zx - a.yx * a.zz, a.yx * a.zy - a.yy * a.zx,

@@ -59,7 +59,6 @@ ColumnPairs<R> find_column_pairs(Columns& body, double smoothing) {
     out.begin.push_back(0);
     std::size_t bonds = 0;
     std::vector<int> candidates;
-    std::vector<bool> whole(columns.size(), true);
     for (std::size_t a = 0; a < columns.size(); ++a) {
         const Column& ca = columns[a];
         candidates.clear();
@@ -102,7 +101,6 @@ ColumnPairs<R> find_column_pairs(Columns& body, double smoothing) {
             if (pair.count == 0) return;
             bonds += static_cast<std::size_t>(pair.count);
             out.pairs.push_back(pair);
-            if (cb.layers != ca.layers) whole[a] = false;
         };
         const int reach = body.pad;
         for (int b : candidates) {

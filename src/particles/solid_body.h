@@ -56,8 +56,9 @@ struct SolidBody {
     Array<float> yield;                          ///< GPa, strength in force
 
     double axis_x = 0, axis_y = 0;   ///< radial stress is taken about this axis
-    double energy_at_start = 0;      ///< J
 
+    /// Damage of a slot: by convention the first column of the law's state; 0 for a law without state.
+    double damage(std::size_t slot) const { return state.empty() ? 0.0 : static_cast<double>(state[0][slot]); }
     double volume(const Column& c) const { return c.area * layout.dz; }
     double mass(const Column& c) const { return material.density * volume(c); }
 };

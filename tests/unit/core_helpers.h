@@ -293,8 +293,7 @@ public:
     /// Advances to `end` with steps of the Courant factor, no longer than `longest`.
     void run(double end, double courant, double longest = 1e300) {
         while (time < end) {
-            std::int64_t worst;
-            double dt = std::min(courant / solver_.stable_rate(b, worst), longest);
+            double dt = std::min(courant / solver_.stable_rate(b), longest);
             if (last_ > 0) dt = std::min(dt, 1.05 * last_);
             dt = std::min(dt, end - time);
             step(dt);
@@ -337,8 +336,8 @@ public:
         solver_.rates(b);
     }
     /// Kinetic and internal energy, momentum of the real particles.
-    FluidSums sums() const {
-        FluidSums s;
+    BodySums sums() const {
+        BodySums s;
         for (std::size_t i = 0; i < real_; ++i) {
             const double m = b.mass[i];
             s.kinetic += 0.5 * m * (b.v[0][i] * b.v[0][i] + b.v[1][i] * b.v[1][i] + b.v[2][i] * b.v[2][i]);

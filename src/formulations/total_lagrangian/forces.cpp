@@ -169,7 +169,7 @@ double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
             }
         }
         if (viscous) {
-            const V gained = scale * R(b.material.density) * f.heat;
+            const V gained = static_cast<R>(kick) * f.heat;
             store(b.energy.data() + i, load<V>(b.energy.data() + i) + gained);
             double h = 0;
             for (int l = 0; l < lanes<R>; ++l)
@@ -223,9 +223,11 @@ BodySums sums(const SolidBody<R>& b) {
             s.py += vy;
             s.pz += vz;
             s.internal += static_cast<double>(b.energy[i]);
-            s.damaged += !b.state.empty() && static_cast<double>(b.state[0][i]) > b.options.failure.threshold;
+            s.mass += 1;
+            s.damaged += b.damage(i) > b.options.failure.threshold;
         }
         const double m = b.mass(c);
+        s.mass *= m;
         s.kinetic *= m;
         s.px *= m;
         s.py *= m;

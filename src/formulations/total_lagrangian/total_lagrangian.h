@@ -11,6 +11,7 @@
 #pragma once
 
 #include "neighbours/column_pairs.h"
+#include "particles/body_sums.h"
 #include "particles/solid_body.h"
 
 namespace brisance {
@@ -18,12 +19,10 @@ namespace brisance {
 /// What a stress pass reports.
 struct StressReport {
     double rate = 0;             ///< 1/us; the largest c/(spacing stretch): the step must stay below courant * tau / rate
-    std::int64_t rate_slot = -1;
     double zero_energy = 0;      ///< J, stored by the control
     double zero_energy_lost = 0; ///< J, set free this step where damage softened the control
     double bulk_viscous = 0;     ///< J, part of the internal energy made by bulk viscosity this step
     std::int64_t torn = 0;       ///< particles taken out this step
-    double torn_energy = 0;      ///< J, energy of the control that they held
 };
 
 /// Pass 1: deformation, law, stress at t_n+1. `dt` is the drift that led here, `kick` the mean of that drift and the one before:
@@ -41,21 +40,7 @@ double kick(SolidBody<R>& body, const ColumnPairs<R>& pairs, double kick);
 template <class R>
 void drift(SolidBody<R>& body, double dt, double kick);
 
-/// Kinetic energy sum m v^2/2 and momentum sum m v, of v as it stands; internal energy (J).
-struct BodySums {
-    double kinetic = 0, internal = 0;
-    double px = 0, py = 0, pz = 0;
-    std::int64_t damaged = 0;
-    BodySums& operator+=(const BodySums& o) {
-        kinetic += o.kinetic;
-        internal += o.internal;
-        px += o.px;
-        py += o.py;
-        pz += o.pz;
-        damaged += o.damaged;
-        return *this;
-    }
-};
+/// Of v as it stands.
 template <class R>
 BodySums sums(const SolidBody<R>& body);
 

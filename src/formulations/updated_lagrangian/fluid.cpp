@@ -222,28 +222,22 @@ void FluidSolver::drift(FluidBody& b, double dt) {
     }, 1024);
 }
 
-double FluidSolver::stable_rate(const FluidBody& b, std::int64_t& worst) const {
-    double rate = 0;
-    worst = -1;
-    for (std::int64_t k = 0; k < b.size(); ++k) {
+double FluidSolver::stable_rate(const FluidBody& b) const {
+    return exec::max(b.size(), 0.0, [&](std::int64_t k) {
         const auto i = static_cast<std::size_t>(k);
         const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
                                    b.acceleration[2][i] * b.acceleration[2][i]);
-        const double r = std::max((b.sound[i] * (1 + 0.6 * b.options.alpha) + 0.6 * b.options.beta * mu_[i]) / b.h[i], std::sqrt(a / b.h[i]));
-        if (r > rate) {
-            rate = r;
-            worst = k;
-        }
-    }
-    return rate;
+        return std::max((b.sound[i] * (1 + 0.6 * b.options.alpha) + 0.6 * b.options.beta * mu_[i]) / b.h[i], std::sqrt(a / b.h[i]));
+    });
 }
 
-FluidSums FluidSolver::sums(const FluidBody& b) const {
+BodySums FluidSolver::sums(const FluidBody& b) const {
     const double rho0 = b.material.density, e0 = b.material.eos->initial_energy() / rho0;
-    return exec::sum(b.size(), FluidSums{}, [&](std::int64_t k) {
+    return exec::sum(b.size(), BodySums{}, [&](std::int64_t k) {
         const auto i = static_cast<std::size_t>(k);
-        FluidSums s;
+        BodySums s;
         const double m = b.mass[i], vx = b.v[0][i], vy = b.v[1][i], vz = b.v[2][i];
+        s.mass = m;
         s.kinetic = 0.5 * m * (vx * vx + vy * vy + vz * vz);
         s.internal = m * b.e[i];
         s.px = m * vx;

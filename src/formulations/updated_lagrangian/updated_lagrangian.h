@@ -8,22 +8,10 @@
 #pragma once
 
 #include "neighbours/cell_grid.h"
+#include "particles/body_sums.h"
 #include "particles/fluid_body.h"
 
 namespace brisance {
-
-struct FluidSums {
-    double kinetic = 0, internal = 0, px = 0, py = 0, pz = 0, unburnt = 0;
-    FluidSums& operator+=(const FluidSums& o) {
-        kinetic += o.kinetic;
-        internal += o.internal;
-        px += o.px;
-        py += o.py;
-        pz += o.pz;
-        unburnt += o.unburnt;
-        return *this;
-    }
-};
 
 class FluidSolver {
 public:
@@ -40,8 +28,8 @@ public:
     /// x, and the extrapolation to the next t_n.
     void drift(FluidBody& body, double dt);
     /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us.
-    double stable_rate(const FluidBody& body, std::int64_t& worst) const;
-    FluidSums sums(const FluidBody& body) const;
+    double stable_rate(const FluidBody& body) const;
+    BodySums sums(const FluidBody& body) const;
 
 private:
     CellGrid grid_;

@@ -46,7 +46,7 @@ TEST(Detonation, PlaneChargeOnARigidWall) {
     double released = 0;
     for (std::size_t i = 0; i < tube.size(); ++i) released += tube.b.mass[i] * 7.38 / 1.32 * tube.b.burnt[i];
     EXPECT_NEAR(released, 7.38 * n * d * d * d, 1e-12 * released);  // E0 times volume
-    const FluidSums end = tube.sums();
+    const BodySums end = tube.sums();
     EXPECT_NEAR(end.kinetic + end.internal, start + tube.work, 1e-11 * start);
     EXPECT_NEAR(end.px, tube.impulse, 1e-11 * tube.impulse);
 }

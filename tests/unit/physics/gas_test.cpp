@@ -34,9 +34,9 @@ TEST(Gas, SodsShockTube) {
             if (i < n / 4) add((4 * i + 2) * cell, y, s, 0.125, 2);
         }
     Tube tube(b, 2 * s, 5.6 * 1.3 * b.spacing);
-    const FluidSums start = tube.sums();
+    const BodySums start = tube.sums();
     tube.run(t, 0.3);
-    const FluidSums end = tube.sums();
+    const BodySums end = tube.sums();
     EXPECT_NEAR(end.kinetic + end.internal, start.kinetic + start.internal, 1e-11 * start.internal);
     EXPECT_NEAR(end.py, start.py, 1e-12);
     const double contact = u * t, front_at = shock * t, tail = -0.07027 * t;
