@@ -132,7 +132,9 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         const double approach = wx * nx + wy * ny + wz * nz;
         const double k = o.stiffness * std::max(series(nodes.modulus[i], modulus / t.weights) * nodes.area[i] / nodes.length[i], nodes.hard[i]);
         const double damping = 2 * o.damping * std::sqrt(k * nodes.mass[i]);
-        const double force = std::max(k * overlap - damping * approach, 0.0);
+        // progressive up to where the node stands on the wall: k (1 + (overlap/radius)^2), then 2 k
+        const double deep = nodes.radius[i] > 0 ? std::min(overlap / nodes.radius[i], 1.0) : 0.0, spring = k * overlap * (1 + deep * deep);
+        const double force = std::max(spring - damping * approach, 0.0);
         t.fx = force * nx;
         t.fy = force * ny;
         t.fz = force * nz;
@@ -144,7 +146,8 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
             t.fy -= grip * sy;
             t.fz -= grip * sz;
         }
-        t.stored = 0.5 * k * overlap * overlap;
+        const double bent = std::min(overlap, nodes.radius[i]);
+        t.stored = 0.5 * k * (overlap * overlap * (1 + deep * deep) - 0.5 * deep * deep * bent * bent);
         t.overlap = overlap;
         nodes.fx[i] += t.fx;
         nodes.fy[i] += t.fy;
@@ -212,7 +215,7 @@ ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions&
     for (double kappa : fa.spacing) {
         n.radius.push_back(0.5 * kappa);
         n.area.push_back(kappa * kappa);
-        n.length.push_back(0.25 * kappa);  // stiff enough that a gas does not gain volume: overlap = kappa/4 P/(rho c^2)
+        n.length.push_back(0.125 * kappa);  // stiff enough that a gas does not gain volume: overlap = kappa/8 P/(rho c^2)
     }
     n.modulus = fa.modulus;
     n.mass.assign(a.mass.begin(), a.mass.end());

@@ -5,7 +5,7 @@
 //
 // anything - solid: node to smoothed surface. A solid's first layer carries points on its wall, s_j = x_j + delta_j n_j, and normals
 // n_j = cof(F) N/|cof(F) N|. A node i of the other part sees the weighted plane of the surface points near it,
-//   gap = sum omega_ij (x_i - s_j).n_j / sum omega_ij,   f = k (radius_i - gap) n,
+//   gap = sum omega_ij (x_i - s_j).n_j / sum omega_ij,   f = k (radius_i - gap) (1 + (overlap/radius)^2) n,
 // and the reaction goes back to the nodes with the same weights. So a coarse wall is as smooth and as tight as a fine one: node-to-node
 // contact would let fine gas through between coarse nodes, and roughen the wall by a quarter of the spacing.
 //

@@ -36,6 +36,12 @@ template <class R>
 struct Sym3 {
     R xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
 };
+/// Component k in that order.
+template <class R> BRISANCE_HD R& component(Sym3<R>& a, std::size_t k) { return (&a.xx)[k]; }
+template <class R> BRISANCE_HD const R& component(const Sym3<R>& a, std::size_t k) { return (&a.xx)[k]; }
+template <class R> BRISANCE_HD Vec3<R> operator*(const Sym3<R>& s, const Vec3<R>& v) {
+    return {s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
+}
 template <class R> BRISANCE_HD R trace(const Sym3<R>& a) { return a.xx + a.yy + a.zz; }
 template <class R> BRISANCE_HD R ddot(const Sym3<R>& a, const Sym3<R>& b) {
     const R off = a.xy * b.xy + a.xz * b.xz + a.yz * b.yz;

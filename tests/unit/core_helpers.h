@@ -261,9 +261,10 @@ inline FluidPart fluid(const Material& material, const FluidOptions& options, co
 /// originals after every step. Nothing but the passes of the solver is used.
 class Tube {
 public:
-    /// `body` holds the real particles, 0 <= y < period; copies reach out to `reach`.
+    /// `body` holds the real particles, 0 <= y < period; neighbours stand within `reach`. Copies reach twice as far: the correction of a
+    /// copy's gradients asks for the copy's own neighbours.
     Tube(FluidBody body, double period, double reach) : real_(static_cast<std::size_t>(body.size())), b(std::move(body)) {
-        const int images = static_cast<int>(std::ceil(reach / period));
+        const int images = static_cast<int>(std::ceil(2 * reach / period));
         const FluidBody one = b;
         resize(b, real_ * static_cast<std::size_t>(2 * images + 1));
         for (int image = 0; image <= 2 * images; ++image) {

@@ -82,6 +82,68 @@ void FluidSolver::state(FluidBody& b, double time) {
     });
 }
 
+/// M^-1 as far as the neighbours bear it: an eigenvalue m becomes m (1 + e^2)/(m^2 + e^2). That is 1/m inside (m = 1), 1.88 in place of 2 at
+/// a plane surface (m = 1/2), never more than 3.4, and 0 for a particle alone.
+static Sym3<double> correction(const Sym3<double>& m) {
+    constexpr double e2 = 0.15 * 0.15;
+    const Mat3<double> full{m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz};
+    Sym3<double> square = symmetric_product(full, full);
+    square.xx += e2;
+    square.yy += e2;
+    square.zz += e2;
+    const Mat3<double> c = full * inverse(square);
+    return {(1 + e2) * c.xx, (1 + e2) * c.yy, (1 + e2) * c.zz, (1 + e2) * c.xy, (1 + e2) * c.xz, (1 + e2) * c.yz};
+}
+
+template <class V>
+FluidSolver::Pairs<V> FluidSolver::pairs(double x, double y, double z, double h, std::int64_t q, std::int64_t last) const {
+    const auto j = static_cast<std::size_t>(q);
+    Pairs<V> p;
+    p.d = {x - load<V>(&sx_[j]), y - load<V>(&sy_[j]), z - load<V>(&sz_[j])};
+    p.h = 0.5 * (h + load<V>(&sh_[j]));
+    p.r2 = dot(p.d, p.d);
+    const V number = static_cast<double>(q) + load<V>(lane_number);
+    const auto in = (p.r2 < 4.0 * p.h * p.h) & (number < static_cast<double>(last)) & (p.r2 > 1e-24);
+    p.on = in ? broadcast<V>(1.0) : V{};
+    const V inverse_h = 1.0 / p.h, h2 = inverse_h * inverse_h;
+    p.u = vmin(vsqrt(p.r2) * inverse_h, broadcast<V>(2.0));
+    p.weight = kernel::sigma_3d * h2 * h2 * inverse_h * kernel::bond(p.u);
+    return p;
+}
+
+void FluidSolver::correct_gradients(const FluidBody& b, double h_max) {
+    using V = Pack<double>;
+    constexpr int width = lanes<double>;
+    const std::int64_t entries = grid_.entries();
+    correction_.resize(static_cast<std::size_t>(b.size()));
+    exec::for_each(entries, [&](std::int64_t k) {
+        if (grid_.image(k)) return;
+        const auto s = static_cast<std::size_t>(k);
+        const double x = sx_[s], y = sy_[s], z = sz_[s], h = sh_[s];
+        Sym3<V> m;
+        grid_.ranges(x, y, z, std::min(2 * h_max, h + h_max), [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t q = first; q < last; q += width) {
+                const Pairs<V> p = pairs<V>(x, y, z, h, q, last);
+                if (!(hmax(p.on) > 0)) continue;
+                const V w = p.on * load<V>(&sm_[static_cast<std::size_t>(q)]) / load<V>(&srho_[static_cast<std::size_t>(q)]) * p.weight;
+                m.xx += w * p.d.x * p.d.x;
+                m.yy += w * p.d.y * p.d.y;
+                m.zz += w * p.d.z * p.d.z;
+                m.xy += w * p.d.x * p.d.y;
+                m.xz += w * p.d.x * p.d.z;
+                m.yz += w * p.d.y * p.d.z;
+            }
+        });
+        correction_[static_cast<std::size_t>(grid_.index(k))] =
+            correction({hsum(m.xx), hsum(m.yy), hsum(m.zz), hsum(m.xy), hsum(m.xz), hsum(m.yz)});
+    });
+    for (auto& a : stress_) a.assign(static_cast<std::size_t>(entries + width), 0);
+    exec::for_each(entries, [&](std::int64_t k) {
+        const auto i = static_cast<std::size_t>(grid_.index(k));
+        for (std::size_t a = 0; a < 6; ++a) stress_[a][static_cast<std::size_t>(k)] = b.pressure[i] * component(correction_[i], a);
+    }, 1024);
+}
+
 FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     using V = Pack<double>;
     constexpr int width = lanes<double>;
@@ -92,7 +154,7 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     grid_.build(b.x[0].data(), b.x[1].data(), b.x[2].data(), n, std::max(0.7 * h_max, 1e-9), 2 * h_max, b.z_low, b.period);
     const std::int64_t entries = grid_.entries();
     const auto padded = static_cast<std::size_t>(entries + width);
-    for (auto* a : {&sx_, &sy_, &sz_, &svx_, &svy_, &svz_, &sm_, &srho_, &sp_, &sc_, &sh_, &sr_}) a->resize(padded);
+    for (auto* a : {&sx_, &sy_, &sz_, &svx_, &svy_, &svz_, &sm_, &srho_, &sc_, &sh_, &sr_}) a->resize(padded);
     // most fluids bear no tension: then there is nothing to resist
     const bool tension = b.options.artificial_stress && std::any_of(b.pressure.begin(), b.pressure.end(), [](double p) { return p < 0; });
     exec::for_each(entries, [&](std::int64_t k) {
@@ -105,8 +167,7 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         svz_[s] = b.v_now[2][i];
         sm_[s] = b.mass[i];
         srho_[s] = b.rho_now[i];
-        sp_[s] = b.pressure[i] / (b.rho_now[i] * b.rho_now[i]);
-        sr_[s] = tension && b.pressure[i] < 0 ? b.options.epsilon * sp_[s] : 0;  // -eps sigma/rho^2 = eps P/rho^2, P < 0
+        sr_[s] = tension && b.pressure[i] < 0 ? b.options.epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0;  // -eps sigma/rho^2
         sc_[s] = b.sound[i];
         sh_[s] = b.h[i];
     }, 1024);
@@ -114,9 +175,10 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         sx_[s] = 1e150;  // out of everybody's reach
         sm_[s] = 0;
         srho_[s] = sh_[s] = sc_[s] = 1;
-        sy_[s] = sz_[s] = svx_[s] = svy_[s] = svz_[s] = sp_[s] = sr_[s] = 0;
+        sy_[s] = sz_[s] = svx_[s] = svy_[s] = svz_[s] = sr_[s] = 0;
     }
     mu_.resize(static_cast<std::size_t>(n));
+    correct_gradients(b, h_max);
 
     const double alpha = b.options.alpha, beta = b.options.beta;
     struct Acc {
@@ -130,55 +192,50 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     const Acc total = exec::sum(entries, Acc{}, [&](std::int64_t k) {
         if (grid_.image(k)) return Acc{};
         const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
-        const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], rho = srho_[s], p = sp_[s], c = sc_[s],
-                     h = sh_[s], r_i = sr_[s];
+        const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], rho = srho_[s], c = sc_[s], h = sh_[s],
+                     r_i = sr_[s];
+        const Sym3<double> l = correction_[i];
+        Sym3<V> p_i;
+        for (std::size_t a = 0; a < 6; ++a) component(p_i, a) = broadcast<V>(stress_[a][s]);
         V ax{}, ay{}, az{}, div{}, heat{}, viscous{}, artificial{}, mu_largest{};
-        grid_.ranges(x, y, z, 2 * h_max < h + h_max ? 2 * h_max : h + h_max, [&](std::int64_t first, std::int64_t last) {
+        grid_.ranges(x, y, z, std::min(2 * h_max, h + h_max), [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
-                const V number = static_cast<double>(q) + load<V>(lane_number);
-                const V dx = x - load<V>(&sx_[static_cast<std::size_t>(q)]), dy = y - load<V>(&sy_[static_cast<std::size_t>(q)]),
-                        dz = z - load<V>(&sz_[static_cast<std::size_t>(q)]);
-                const V hm = 0.5 * (h + load<V>(&sh_[static_cast<std::size_t>(q)]));
-                const V r2 = dx * dx + dy * dy + dz * dz;
-                const auto in = (r2 < 4.0 * hm * hm) & (number < static_cast<double>(last)) & (r2 > 1e-24);
-                const V on = in ? broadcast<V>(1.0) : V{};
-                if (!(hmax(on) > 0)) continue;
-                const V mj = on * load<V>(&sm_[static_cast<std::size_t>(q)]);
-                const V rj = load<V>(&srho_[static_cast<std::size_t>(q)]);
-                const V r = vsqrt(r2), inverse_h = 1.0 / hm, u = r * inverse_h;
-                const V h2 = inverse_h * inverse_h;
-                // grad_i W = -weight r_ij
-                const V weight = kernel::sigma_3d * h2 * h2 * inverse_h * kernel::bond(vmin(u, broadcast<V>(2.0)));
-                const V dvx = vx - load<V>(&svx_[static_cast<std::size_t>(q)]), dvy = vy - load<V>(&svy_[static_cast<std::size_t>(q)]),
-                        dvz = vz - load<V>(&svz_[static_cast<std::size_t>(q)]);
-                const V vr = dvx * dx + dvy * dy + dvz * dz;
-                const V mu = vmin(hm * vr / (r2 + 0.01 * hm * hm), V{});
-                const V cm = 0.5 * (c + load<V>(&sc_[static_cast<std::size_t>(q)]));
+                const auto j = static_cast<std::size_t>(q);
+                const Pairs<V> p = pairs<V>(x, y, z, h, q, last);
+                if (!(hmax(p.on) > 0)) continue;
+                const V mj = p.on * load<V>(&sm_[j]), rj = load<V>(&srho_[j]);
+                const Vec3<V> v{vx - load<V>(&svx_[j]), vy - load<V>(&svy_[j]), vz - load<V>(&svz_[j])};
+                const V vr = dot(v, p.d);
+                const V mu = vmin(p.h * vr / (p.r2 + 0.01 * p.h * p.h), V{});
+                const V cm = 0.5 * (c + load<V>(&sc_[j]));
                 const V pi = 2.0 * mu * (beta * mu - alpha * cm) / (rho + rj);
-                V bracket = p + load<V>(&sp_[static_cast<std::size_t>(q)]) + pi;
+                V bracket = pi;
                 if (tension) {
-                    const V w = kernel::shape(vmin(u, broadcast<V>(2.0))), w0 = kernel::shape(b.spacing * inverse_h);
-                    const V f = w / vmax(w0, broadcast<V>(1e-6));
-                    const V extra = -(r_i + load<V>(&sr_[static_cast<std::size_t>(q)])) * power(f, b.options.n);
+                    const V w = kernel::shape(p.u), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
+                    const V extra = -(r_i + load<V>(&sr_[j])) * power(w / vmax(w0, broadcast<V>(1e-6)), b.options.n);
                     bracket += extra;
-                    artificial -= 0.5 * mj * extra * weight * vr;
+                    artificial -= 0.5 * mj * extra * p.weight * vr;
                 }
-                const V force = mj * weight * bracket;
-                ax += force * dx;
-                ay += force * dy;
-                az += force * dz;
-                const V wv = mj * weight * vr;
-                div += wv / rj;
+                Sym3<V> p_sum = p_i;
+                for (std::size_t a = 0; a < 6; ++a) component(p_sum, a) += load<V>(&stress_[a][j]);
+                const V volume = mj / rj * p.weight, along = mj * p.weight * bracket * rho;
+                const Vec3<V> push = p_sum * p.d;
+                ax += volume * push.x + along * p.d.x;
+                ay += volume * push.y + along * p.d.y;
+                az += volume * push.z + along * p.d.z;
+                div += volume * (v.x * (l.xx * p.d.x + l.xy * p.d.y + l.xz * p.d.z) + v.y * (l.xy * p.d.x + l.yy * p.d.y + l.yz * p.d.z) +
+                                 v.z * (l.xz * p.d.x + l.yz * p.d.y + l.zz * p.d.z));
+                const V wv = mj * p.weight * vr;
                 heat -= 0.5 * bracket * wv;
                 viscous -= 0.5 * pi * wv;
-                mu_largest = vmax(mu_largest, on * (-mu));
+                mu_largest = vmax(mu_largest, p.on * (-mu));
             }
         });
-        b.acceleration[0][i] = hsum(ax);
-        b.acceleration[1][i] = hsum(ay);
-        b.acceleration[2][i] = hsum(az);
+        b.acceleration[0][i] = hsum(ax) / rho;
+        b.acceleration[1][i] = hsum(ay) / rho;
+        b.acceleration[2][i] = hsum(az) / rho;
         b.rho_rate[i] = -hsum(div);
-        b.e_rate[i] = hsum(heat);
+        b.e_rate[i] = b.pressure[i] / rho * b.rho_rate[i] + hsum(heat);
         mu_[i] = hmax(mu_largest);
         Acc a;
         a.p.viscous = b.mass[i] * hsum(viscous);

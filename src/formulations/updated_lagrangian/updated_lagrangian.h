@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updated-Lagrangian SPH for fluids (P only), with r = x_i - x_j, v = v_i - v_j, h = (h_i + h_j)/2:
-//   d rho_i/dt = rho_i sum (m_j/rho_j) v . grad_i W                                                Eq. 4, its sign made explicit
-//   dv_i/dt    = -sum m_j (P_i/rho_i^2 + P_j/rho_j^2 + Pi_ij - (R_i + R_j) f^n) grad_i W           Eq. 5
-//   de_i/dt    = 1/2 sum m_j (the same bracket) v . grad_i W                                       Eq. 6 as it must read
+// Updated-Lagrangian SPH for fluids (P only), with r = x_i - x_j, v = v_i - v_j, h = (h_i + h_j)/2, V = m/rho:
+//   d rho_i/dt = rho_i sum V_j v . L_i grad_i W                                                    Eq. 4, its sign made explicit
+//   dv_i/dt    = -1/rho_i sum V_j (P_i L_i + P_j L_j) grad_i W - sum m_j (Pi_ij - (R_i + R_j) f^n) grad_i W       Eq. 5
+//   de_i/dt    = P_i/rho_i^2 d rho_i/dt + 1/2 sum m_j (Pi_ij - (R_i + R_j) f^n) v . grad_i W        Eq. 6 as it must read
 //   Pi_ij = (-alpha c mu + beta mu^2)/rho, mu = h v.r/(r^2 + 0.01 h^2) where v.r < 0
 //   R_i = -eps sigma_i/rho_i^2 in tension (a fluid: sigma = -P), f = W(r, h)/W(spacing, h)         Eq. 7
+// L_i = M_i^-1, M_i = -sum V_j r (x) grad_i W, makes div v exact for a velocity that is linear in space, at a free surface too (Randles &
+// Libersky 1996); the force is the partner of that divergence (Bonet & Lok 1999): what it does is -P dV of each particle, so energy and
+// linear momentum are exact and smooth flow makes no entropy. The paper's equations are those with L = 1: a charge of four particles'
+// radius is then mostly surface, believes to expand by half of what it does, and keeps energy that the rock should get
+// (docs/theory/fluids.md).
 #pragma once
 
 #include "neighbours/cell_grid.h"
@@ -33,8 +38,19 @@ public:
 
 private:
     CellGrid grid_;
+    /// Particle i, at (x, y, z) with h, and the entries from q on, as many as a pack holds: grad_i W = -weight d.
+    template <class V> struct Pairs {
+        Vec3<V> d;        ///< x_i - x_j
+        V h, r2, u;       ///< mean h, |d|^2, |d|/h
+        V weight, on;     ///< on: 1 for a neighbour before `last`, else 0
+    };
+    template <class V> Pairs<V> pairs(double x, double y, double z, double h, std::int64_t q, std::int64_t last) const;
+    void correct_gradients(const FluidBody& body, double h_max);
+
     // sorted copies of what neighbours need
-    Array<double> sx_, sy_, sz_, svx_, svy_, svz_, sm_, srho_, sp_, sc_, sh_, sr_;
+    Array<double> sx_, sy_, sz_, svx_, svy_, svz_, sm_, srho_, sc_, sh_, sr_;
+    std::array<Array<double>, 6> stress_;   ///< P L
+    std::vector<Sym3<double>> correction_;  ///< L
     Array<double> mu_;  ///< largest |mu| of each particle
 };
 

@@ -11,7 +11,7 @@ TEST(Detonation, PlaneChargeOnARigidWall) {
     const int n = 300;
     FluidPart f = fluid(petn, {}, {d, n, 1, 1});
     for (std::size_t i = 0; i < f.body.mass.size(); ++i) f.body.lit[i] = f.body.x[0][i] / D;
-    Tube tube(f.body, d, 4 * d);
+    Tube tube(f.body, d, 3 * d);
     tube.platens.push_back(Platen{{0, 0, 0}, {-1, 0, 0}});
     const double start = tube.sums().internal;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gas dynamics in a tube: exact solutions of Riemann problems, and sound in air.
 #include "../core_helpers.h"
-#include "math/kernel.h"
 
 using namespace brisance;
 using namespace brisance::core_test;
@@ -61,30 +60,6 @@ TEST(Gas, SodsShockTube) {
 
 namespace {
 
-/// Sound speed of a gas of particles on a cubic lattice, over its own: sums over the lattice for long waves. With
-/// kappa = -sum V x dW/dx and S = sum V x^2/2 d2W/dx2, gamma c^2/c_0^2 = kappa^2 (gamma - 2) + 2 S - h kappa kappa'(h)/3.
-double lattice_sound(double gamma, double smoothing) {
-    const auto sums = [](double h, double& S) {
-        double kappa = 0;
-        S = 0;
-        const int m = static_cast<int>(2 * h) + 1;
-        for (int i = -m; i <= m; ++i)
-            for (int j = -m; j <= m; ++j)
-                for (int k = -m; k <= m; ++k) {
-                    const double r = std::sqrt(i * i + j * j + k * k), q = r / h;
-                    if (q == 0 || q >= 2) continue;
-                    const double first = -q * kernel::bond(q) / pi / std::pow(h, 4), second = (q < 1 ? -3 + 4.5 * q : 1.5 * (2 - q)) / pi / std::pow(h, 5);
-                    const double along = i * i / (r * r);
-                    kappa -= first / r * i * i;
-                    S += 0.5 * i * i * (second * along + first / r * (1 - along));
-                }
-        return kappa;
-    };
-    double S, other;
-    const double e = 1e-4, slope = (sums(smoothing + e, other) - sums(smoothing - e, other)) / (2 * e), kappa = sums(smoothing, S);
-    return std::sqrt((kappa * kappa * (gamma - 2) + 2 * S - smoothing * kappa * slope / 3) / gamma);
-}
-
 double speed_of_a_pulse(double smoothing) {
     const double d = 0.1, width = 1.5, c = 0.33454;
     FluidOptions weak;
@@ -92,7 +67,7 @@ double speed_of_a_pulse(double smoothing) {
     weak.alpha = 0.1;  // a sound wave is no shock
     FluidPart f = fluid(library("air_paper"), weak, {d, 500, 1, 1});  // its ends are open: what starts there stays behind the pulse
     for (std::size_t i = 0; i < f.body.mass.size(); ++i) f.body.v[0][i] = 1e-3 * c * std::exp(-sq((f.body.x[0][i] - 20) / width));
-    Tube tube(f.body, d, 4 * smoothing * d);
+    Tube tube(f.body, d, 2.05 * smoothing * d);
     const auto centre = [&] {
         double sum = 0, at = 0;
         for (std::size_t i = 0; i < tube.size(); ++i)
@@ -113,14 +88,11 @@ double speed_of_a_pulse(double smoothing) {
 }  // namespace
 
 TEST(Gas, SoundInAir) {
-    // The air of the paper: c = sqrt(1.401 P/rho) = 334.54 m/s. On a lattice it depends on h; a gas feels it more than a liquid,
-    // since its own pressure is most of its stiffness.
+    // The air of the paper: c = sqrt(1.401 P/rho) = 334.54 m/s, whatever h is. With plain gradients h = 1.3 spacings would carry it 4 % too
+    // fast: a gas feels the lattice more than a liquid, since its own pressure is most of its stiffness.
     for (const double smoothing : {1.2, 1.3, 1.8}) {
-        const double speed = speed_of_a_pulse(smoothing), want = 0.33454 * lattice_sound(1.401, smoothing);
-        std::printf("sound in air, h = %g spacings: %.2f m/s, sum over the lattice %.2f, air 334.54 m/s\n", smoothing, 1e3 * speed, 1e3 * want);
-        EXPECT_NEAR(speed, want, 0.005 * want);
-        if (smoothing == 1.8) {
-            EXPECT_NEAR(speed, 0.33454, 0.01 * 0.33454);
-        }
+        const double speed = speed_of_a_pulse(smoothing);
+        std::printf("sound in air, h = %g spacings: %.2f m/s, air 334.54 m/s\n", smoothing, 1e3 * speed);
+        EXPECT_NEAR(speed, 0.33454, 0.005 * 0.33454);
     }
 }
