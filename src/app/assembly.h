@@ -18,7 +18,10 @@ struct Estimate {
         double particles = 0, bytes = 0, dt = 0;                        ///< dt: stable step at rest, us
     };
     std::vector<Part> parts;
-    double particles = 0, bytes = 0, dt = 0, steps = 0;
+    double particles = 0, bytes = 0;
+    double dt = 0;            ///< the first step, us: a charge that burns is the fastest
+    double steps = 0;         ///< short steps after the burn
+    double core_seconds = 0;  ///< solids take longer steps than fluids (integrate/step.cpp)
 };
 
 /// The z-range of a slice, or of the whole case.

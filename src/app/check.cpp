@@ -14,8 +14,7 @@ int check_command(const CaseOptions& o) {
     const Case c = open_case(o);
     const Estimate e = estimate(c);
     const double memory = available_memory();
-    // A rate that this kind of loop reaches on one core; `brisance run` prints the true one.
-    const double rate = 2.0e6 * exec::threads(), seconds = e.particles * e.steps / rate;
+    const double seconds = e.core_seconds / exec::threads();
     if (o.json) {
         std::string parts;
         for (const Estimate::Part& p : e.parts)
@@ -31,7 +30,7 @@ int check_command(const CaseOptions& o) {
             fmt::print("{:<12} {:<18} {:<18} {:>9.3g} {:>9.3g} {:>9.3g} {:>13.0f} {:>12.5g} {:>10.0f} {:>9.2f}\n", p.name, p.material, p.formulation, p.spacing,
                        p.spacing_far, p.spacing_z, p.particles, 1e-3 * p.mass, p.bytes / 1048576, 1e3 * p.dt);
         fmt::print("\n{:.4g} particles, {:.3g} GiB (free: {:.3g} GiB)\n", e.particles, e.bytes / gibibyte, memory / gibibyte);
-        fmt::print("first step {:.2f} ns, at least {:.0f} steps to {:g} us at that step; about {} on {} threads\n", 1e3 * e.dt, e.steps, c.until,
+        fmt::print("first step {:.2f} ns, {:.0f} short steps to {:g} us; about {} on {} threads\n", 1e3 * e.dt, e.steps, c.until,
                    seconds < 3600 ? fmt::format("{:.0f} min", seconds / 60 + 1) : fmt::format("{:.1f} h", seconds / 3600), exec::threads());
         for (const PartData& p : c.parts)
             for (const std::string& r : make_material(p.material).remarks) fmt::print("{}: {}\n", p.material.name, r);

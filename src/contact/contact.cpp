@@ -287,7 +287,7 @@ ContactReport node_contact(const FluidBody& a, const FluidBody& b, const Contact
                     if (r2 >= d * d || r2 < 1e-24) continue;
                     const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
                     const double m_star = series(p.mass[i], q.mass[j]);
-                    const double stiffness = o.stiffness * std::max(series(me.f.modulus[i], other.f.modulus[j]) * d, hardest(m_star, o));
+                    const double stiffness = o.stiffness * std::max(4 * series(me.f.modulus[i], other.f.modulus[j]) * d, hardest(m_star, o));
                     // progressive: k (1 + 3 (overlap/d)^2)
                     const double spring = stiffness * overlap * (1 + 3 * deep * deep);
                     const double vn = ((p.v_now[0][i] - q.v_now[0][j]) * dx + (p.v_now[1][i] - q.v_now[1][j]) * dy +

@@ -17,9 +17,9 @@ Placement place(const Shape& part, const std::vector<ShapePtr>& later, const Pla
     if (!std::isfinite(box.max.x - box.min.x + box.max.y - box.min.y) || !(z_high > z_low) || !std::isfinite(z_high - z_low))
         throw InputError(fmt::format("part {}: its shape is unbounded or empty; cut it with a box or a cylinder", o.name));
 
-    const auto inside_3d = [&](Point p) {
-        double d = part.distance(p);
-        for (const ShapePtr& s : later) d = std::max(d, -s->distance(p));
+    const auto section = [&](Point p) {
+        double d = part.section_distance(p);
+        for (const ShapePtr& s : later) d = std::max(d, -s->section_distance(p));
         return d;
     };
     // The section is the shadow of the part along z: for a prism any level shows it, for other shapes the union of some levels.
@@ -30,7 +30,7 @@ Placement place(const Shape& part, const std::vector<ShapePtr>& later, const Pla
     Region region;
     region.distance = [&](Vec2 p) {
         double d = 1e300;
-        for (double z : levels) d = std::min(d, inside_3d({p.x, p.y, z}));
+        for (double z : levels) d = std::min(d, section({p.x, p.y, z}));
         return d;
     };
     region.min = {box.min.x, box.min.y};

@@ -11,6 +11,7 @@ namespace brisance {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double far_away = 1e9;  ///< mm; a section that there is not, finite so that differences of distances stay numbers
 
 /// Signed distance to a rectangle |a| < half_a, |b| < half_b from the two signed distances a' = |a| - half_a, b' = |b| - half_b.
 double corner_distance(double a, double b) {
@@ -32,12 +33,14 @@ public:
     }
 
     double distance(Point p) const override {
-        const Point from_centre = p - centre_;
-        const double z = dot(from_centre, axis_);
-        const double r = norm(from_centre - z * axis_);
         // Its meridian half-plane shows a rectangle: z within the length, r within the wall.
-        const double radial = inner_ > 0 ? std::max(r - outer_, inner_ - r) : r - outer_;
-        return corner_distance(radial, std::abs(z) - half_length_);
+        const double z = dot(p - centre_, axis_);
+        return corner_distance(radial(p, z), std::abs(z) - half_length_);
+    }
+    double section_distance(Point p) const override {
+        if (std::abs(axis_.z) < 1 - 1e-12) return distance(p);
+        const double z = dot(p - centre_, axis_);
+        return std::abs(z) <= half_length_ ? radial(p, z) : far_away;
     }
 
     Box bounds() const override {
@@ -48,6 +51,10 @@ public:
     }
 
 private:
+    double radial(Point p, double z) const {
+        const double r = norm(p - centre_ - z * axis_);
+        return inner_ > 0 ? std::max(r - outer_, inner_ - r) : r - outer_;
+    }
     Point centre_, axis_;
     double half_length_ = 0, inner_, outer_;
 };
@@ -67,6 +74,11 @@ public:
         return outside > 0 ? outside : std::max({x, y, z});
     }
 
+    double section_distance(Point p) const override {
+        if (p.z < min_.z || p.z > max_.z) return far_away;
+        return corner_distance(std::abs(p.x - 0.5 * (min_.x + max_.x)) - 0.5 * (max_.x - min_.x),
+                               std::abs(p.y - 0.5 * (min_.y + max_.y)) - 0.5 * (max_.y - min_.y));
+    }
     Box bounds() const override { return {min_, max_}; }
 
 private:
@@ -79,6 +91,10 @@ public:
         if (!(radius > 0)) throw InputError("a sphere needs a radius > 0");
     }
     double distance(Point p) const override { return norm(p - centre_) - radius_; }
+    double section_distance(Point p) const override {
+        const double z = p.z - centre_.z;
+        return std::abs(z) < radius_ ? std::hypot(p.x - centre_.x, p.y - centre_.y) - std::sqrt(radius_ * radius_ - z * z) : far_away;
+    }
     Box bounds() const override {
         const Point half{radius_, radius_, radius_};
         return {centre_ - half, centre_ + half};
@@ -97,6 +113,10 @@ public:
         normal_ = (1 / length) * normal;
     }
     double distance(Point p) const override { return dot(p - point_, normal_); }
+    double section_distance(Point p) const override {
+        const double d = distance(p), slope = std::hypot(normal_.x, normal_.y);
+        return slope > 1e-12 ? d / slope : (d > 0 ? far_away : -far_away);
+    }
     Box bounds() const override { return {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}; }
 
 private:
@@ -114,6 +134,11 @@ public:
     double distance(Point p) const override {
         double d = infinity;
         for (const ShapePtr& part : parts_) d = std::min(d, part->distance(p));
+        return d;
+    }
+    double section_distance(Point p) const override {
+        double d = infinity;
+        for (const ShapePtr& part : parts_) d = std::min(d, part->section_distance(p));
         return d;
     }
     Box bounds() const override {
@@ -139,6 +164,11 @@ public:
         for (const ShapePtr& part : parts_) d = std::max(d, part->distance(p));
         return d;
     }
+    double section_distance(Point p) const override {
+        double d = -infinity;
+        for (const ShapePtr& part : parts_) d = std::max(d, part->section_distance(p));
+        return d;
+    }
     Box bounds() const override {
         Box box = parts_.front()->bounds();
         for (const ShapePtr& part : parts_) {
@@ -158,6 +188,11 @@ public:
     double distance(Point p) const override {
         double d = first_->distance(p);
         for (const ShapePtr& other : others_) d = std::max(d, -other->distance(p));
+        return d;
+    }
+    double section_distance(Point p) const override {
+        double d = first_->section_distance(p);
+        for (const ShapePtr& other : others_) d = std::max(d, -other->section_distance(p));
         return d;
     }
     Box bounds() const override { return first_->bounds(); }

@@ -20,6 +20,10 @@ public:
     virtual ~Shape() = default;
     /// Signed distance to the surface, mm; negative inside. Exact for primitives; for combinations its sign is exact and its size a bound.
     virtual double distance(Point p) const = 0;
+    /// Signed distance, within the plane z = p.z, to the boundary of the shape's cut with that plane, mm; large where the plane misses the
+    /// shape or lies inside it altogether. `distance` would see end faces that a section does not have. A cylinder that is not along z
+    /// answers with `distance`, a bound.
+    virtual double section_distance(Point p) const = 0;
     /// An axis-aligned box that holds the shape (infinite for half-spaces).
     virtual Box bounds() const = 0;
     bool contains(Point p) const { return distance(p) < 0; }

@@ -12,9 +12,6 @@ namespace brisance {
 
 namespace {
 
-/// Longest run of short steps within a long one: contact forces foreseen for half of it must stay honest.
-constexpr double most_short_steps = 16;
-
 template <class R>
 double solid_limit(const World<R>& w, const SolidPart<R>& s) {
     double rate = s.report.rate;

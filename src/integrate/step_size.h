@@ -6,6 +6,9 @@
 
 namespace brisance {
 
+/// Longest run of short steps within a long one: contact forces foreseen for half of it must stay honest.
+constexpr double most_short_steps = 16;
+
 /// Decides which solids are slow, and the length of the coming step: that of the slow solids, or a short one where there are none.
 /// Throws PhysicsStop when the step of the fast parts falls below the limit.
 template <class R> double choose_step(World<R>& w, double until);

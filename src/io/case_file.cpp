@@ -389,7 +389,8 @@ private:
         if (data.pairwise) {
             data.alpha = node.at("pairwise").at("alpha").number;
             data.beta = node.at("pairwise").at("beta").number;
-        } else {
+        }
+        if (node.has("bulk")) {
             data.linear = node.at("bulk").at("linear").number;
             data.quadratic = node.at("bulk").at("quadratic").number;
         }

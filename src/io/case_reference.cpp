@@ -117,10 +117,10 @@ Schema make_schema() {
             place("centre", "centre"), quantity("radius", dimension::length, "radius", positive)}},
         {.name = "half_space", .heading = "shape.half_space", .meaning = "", .keys = {
             place("point", "a point of the plane"), direction}},
-        {.name = "viscosity", .heading = "[part.NAME.viscosity]", .meaning = "Exactly one of these.", .keys = {
-            {.name = "pairwise", .type = Type::table, .meaning = "Monaghan's Pi_ij between approaching pairs", .group = "pairwise"},
-            {.name = "bulk", .type = Type::table, .meaning = "bulk viscosity in the stress of each particle", .group = "bulk"},
-        }, .choice = true},
+        {.name = "viscosity", .heading = "[part.NAME.viscosity]", .meaning = "One of these, or both.", .keys = {
+            {.name = "pairwise", .type = Type::table, .meaning = "Monaghan's Pi_ij between approaching pairs; it resists shear too", .absent = "off", .group = "pairwise"},
+            {.name = "bulk", .type = Type::table, .meaning = "bulk viscosity in the stress of each particle; resists compression alone", .absent = "off", .group = "bulk"},
+        }},
         {.name = "pairwise", .heading = "viscosity.pairwise", .meaning = "", .keys = {
             number("alpha", "1.0", "linear coefficient", not_negative), number("beta", "2.0", "quadratic coefficient", not_negative)}},
         {.name = "bulk", .heading = "viscosity.bulk", .meaning = "", .keys = {

@@ -15,6 +15,7 @@ namespace brisance {
 struct FluidOptions {
     double smoothing = 1.3;
     double alpha = 1, beta = 2;         ///< Monaghan viscosity
+    double linear = 0, quadratic = 0;   ///< bulk viscosity
     bool artificial_stress = false;
     double epsilon = 0.5, n = 4;        ///< of the artificial stress, Eq. 7
     double h_min = 0.5, h_max = 5;      ///< limits of h over its initial value

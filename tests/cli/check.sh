@@ -20,8 +20,8 @@ assert list(parts) == ["rock", "copper", "coupling", "sheath", "charge"], list(p
 assert abs(sum(part["particles"] for part in parts.values()) - case["particles"]) <= len(parts)
 assert case["dt_us"] == min(part["dt_us"] for part in parts.values())
 assert case["fits"] is True and case["bytes"] > 0 and case["steps"] > 0
-# pi (72^2 - 3.225^2) mm2 x 8 layers of 0.25 mm x 2.66 mg/mm3 = 86.47 g; 1 % for the density of another set
-assert abs(parts["rock"]["mass_mg"] / 86.47e3 - 1) < 0.01, parts["rock"]
+# pi (72^2 - 3.225^2) mm2 x 6 layers of 0.4 mm x 2.66 mg/mm3 = 103.76 g; 1 % for the density of another set
+assert abs(parts["rock"]["mass_mg"] / 103.76e3 - 1) < 0.01, parts["rock"]
 PY
 [[ -z $(find . -mindepth 1 ! -name out ! -name err) ]] || wrong "check left files behind"
 

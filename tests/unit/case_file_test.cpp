@@ -182,6 +182,7 @@ TEST_F(CaseFile, PresetsAndSettingsOverrideInOrder) {
     const Case pairwise = read_case(good_file, "", {"rock.viscosity.pairwise.alpha=0.25"});
     EXPECT_TRUE(part(pairwise, "rock").viscosity.pairwise);
     EXPECT_DOUBLE_EQ(part(pairwise, "rock").viscosity.alpha, 0.25);
+    EXPECT_DOUBLE_EQ(part(pairwise, "rock").viscosity.linear, 0.06);  // the two kinds may act together
 }
 
 TEST_F(CaseFile, IncludesComeFirstAndTheIncludingFileWins) {
@@ -300,7 +301,6 @@ TEST_F(CaseFile, WrongCasesSayWhereWhatAndWhatIsAllowed) {
         {"mode = \"all_zero\"", "@mode = \"allzero\"", {"part.rock.failure.mode = \"allzero\"", "\"jh2\" | \"no_tension_no_shear\" | \"all_zero\"", "did you mean 'all_zero'?"}},
         {"kind = \"line\"", "@kind = \"lin\"", {"\"point\" | \"line\" | \"instant\"", "did you mean 'line'?"}},
         {"fix = [\"z\"]", "fix = [@\"w\"]", {"boundary[0].fix[0] = \"w\"", "\"x\" | \"y\" | \"z\""}},
-        {"viscosity = {bulk = {linear = 0.06}}", "@viscosity = {bulk = {}, pairwise = {}}", {"exactly one", "pairwise, bulk"}},
         // what is missing
         {"[run]\nuntil = \"10 us\"", "[@run]", {"the key 'until' is missing", "end of the run", "\"150 us\""}},
         {"formulation = \"total_lagrangian\"", "", {"part.rock: the key 'formulation' is missing", "total_lagrangian"}},

@@ -151,6 +151,22 @@ TEST(Shape, CombinationsHaveTheSignOfTheirSets) {
     EXPECT_DOUBLE_EQ(cut->bounds().max.x, 1);
 }
 
+TEST(Shape, SectionsDoNotSeeEndFaces) {
+    // the section of a thin disc is as wide as that of a long bar; the distance in space knows its faces
+    const ShapePtr disc = make_cylinder({0, 0, 0}, {0, 0, 0.2}, 5), slab = make_box({-2, -3, 0}, {2, 3, 0.2});
+    EXPECT_NEAR(disc->section_distance({1, 0, 0.1}), -4, 1e-12);
+    EXPECT_NEAR(disc->distance({1, 0, 0.1}), -0.1, 1e-12);
+    EXPECT_GT(disc->section_distance({1, 0, 0.3}), 1e6);
+    EXPECT_NEAR(slab->section_distance({1, 0, 0.1}), -1, 1e-12);
+    EXPECT_NEAR(make_sphere({0, 0, 0}, 5)->section_distance({1, 0, 3}), 1 - 4, 1e-12);
+    EXPECT_NEAR(make_half_space({0, 0, 0}, {1, 0, 1})->section_distance({-2, 0, 1}), -1, 1e-12);
+    EXPECT_LT(make_half_space({0, 0, 1}, {0, 0, 1})->section_distance({0, 0, 0}), -1e6);
+    const ShapePtr ring = make_difference(disc, {make_cylinder({0, 0, -1}, {0, 0, 1}, 2)});
+    EXPECT_NEAR(ring->section_distance({3, 0, 0.1}), -1, 1e-12);
+    EXPECT_NEAR(make_union({disc, slab})->section_distance({0, 4, 0.1}), -1, 1e-12);
+    EXPECT_NEAR(make_intersection({disc, slab})->section_distance({0, 4, 0.1}), 1, 1e-12);
+}
+
 TEST(Shape, RefusesWhatIsNoSolid) {
     EXPECT_THROW(make_cylinder({0, 0, 0}, {0, 0, 0}, 1), InputError);
     EXPECT_THROW(make_cylinder({0, 0, 0}, {0, 0, 1}, 0), InputError);

@@ -4,7 +4,7 @@
 Staggered Lagrangian scheme after Wilkins (1964), nodes with velocity between cells with stress; no particles, no kernels, no contact:
 the shells share their nodes (a gap that would open in tension is closed by the cut-off of the fluid beside it). Per radian and unit
 length a cell has volume V = (r2^2 - r1^2)/2, and with r = (r1 + r2)/2, v = (v1 + v2)/2 its strain rates e_r = (v2 - v1)/(r2 - r1),
-e_theta = v/r satisfy dV/dt = V (e_r + e_theta) exactly; the forces are the partners of these rates, so energy closes to round-off.
+e_theta = v/r satisfy dV/dt = V (e_r + e_theta) exactly; the forces are the partners of these rates, so energy closes to the order of the step.
 
     /usr/bin/python3 -m brisance.exact.borehole RUN      compares a run's peaks with this reference (plane-strain slices)
 """
@@ -91,7 +91,6 @@ class Shells:
         force = np.zeros_like(self.r)
         force[:-1] += radial * middle - hoop * width / 2
         force[1:] -= radial * middle + hoop * width / 2
-        v_old = self.v
         self.v = self.v + 0.5 * (self.dt + dt_new) * force / self.mass
         self.v[0] = 0.0 if self.r[0] == 0 else self.v[0]
         dt = self.dt = dt_new
@@ -112,7 +111,6 @@ class Shells:
         self._stress(divergence, rates, dt)
         self.energy = energy + work((before[0] + self.p) / 2, (before[1] + self.s) / 2)
         self.t += dt
-        return v_old
 
 
 def peaks(model, until):

@@ -111,36 +111,55 @@ FluidSolver::Pairs<V> FluidSolver::pairs(double x, double y, double z, double h,
     return p;
 }
 
-void FluidSolver::correct_gradients(const FluidBody& b, double h_max) {
+void FluidSolver::responses(FluidBody& b, double h_max) {
     using V = Pack<double>;
     constexpr int width = lanes<double>;
     const std::int64_t entries = grid_.entries();
     correction_.resize(static_cast<std::size_t>(b.size()));
+    q_.resize(static_cast<std::size_t>(b.size()));
     exec::for_each(entries, [&](std::int64_t k) {
         if (grid_.image(k)) return;
         const auto s = static_cast<std::size_t>(k);
-        const double x = sx_[s], y = sy_[s], z = sz_[s], h = sh_[s];
+        const auto i = static_cast<std::size_t>(grid_.index(k));
+        const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], h = sh_[s];
         Sym3<V> m;
+        Mat3<V> g;
         grid_.ranges(x, y, z, std::min(2 * h_max, h + h_max), [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const Pairs<V> p = pairs<V>(x, y, z, h, q, last);
                 if (!(hmax(p.on) > 0)) continue;
-                const V w = p.on * load<V>(&sm_[static_cast<std::size_t>(q)]) / load<V>(&srho_[static_cast<std::size_t>(q)]) * p.weight;
-                m.xx += w * p.d.x * p.d.x;
-                m.yy += w * p.d.y * p.d.y;
-                m.zz += w * p.d.z * p.d.z;
-                m.xy += w * p.d.x * p.d.y;
-                m.xz += w * p.d.x * p.d.z;
-                m.yz += w * p.d.y * p.d.z;
+                const auto j = static_cast<std::size_t>(q);
+                const Vec3<V> w = (p.on * load<V>(&sm_[j]) / load<V>(&srho_[j]) * p.weight) * p.d;
+                const V ux = vx - load<V>(&svx_[j]), uy = vy - load<V>(&svy_[j]), uz = vz - load<V>(&svz_[j]);
+                m.xx += w.x * p.d.x;
+                m.yy += w.y * p.d.y;
+                m.zz += w.z * p.d.z;
+                m.xy += w.x * p.d.y;
+                m.xz += w.x * p.d.z;
+                m.yz += w.y * p.d.z;
+                g.xx += w.x * ux;
+                g.xy += w.x * uy;
+                g.xz += w.x * uz;
+                g.yx += w.y * ux;
+                g.yy += w.y * uy;
+                g.yz += w.y * uz;
+                g.zx += w.z * ux;
+                g.zy += w.z * uy;
+                g.zz += w.z * uz;
             }
         });
-        correction_[static_cast<std::size_t>(grid_.index(k))] =
-            correction({hsum(m.xx), hsum(m.yy), hsum(m.zz), hsum(m.xy), hsum(m.xz), hsum(m.yz)});
+        const Sym3<double> l = correction({hsum(m.xx), hsum(m.yy), hsum(m.zz), hsum(m.xy), hsum(m.xz), hsum(m.yz)});
+        const double divergence = l.xx * hsum(g.xx) + l.yy * hsum(g.yy) + l.zz * hsum(g.zz) + l.xy * (hsum(g.xy) + hsum(g.yx)) +
+                                  l.xz * (hsum(g.xz) + hsum(g.zx)) + l.yz * (hsum(g.yz) + hsum(g.zy));
+        const double closing = -std::min(divergence, 0.0) * h;
+        correction_[i] = l;
+        b.rho_rate[i] = -divergence;
+        q_[i] = b.rho_now[i] * closing * (b.options.quadratic * closing + b.options.linear * b.sound[i]);
     });
     for (auto& a : stress_) a.assign(static_cast<std::size_t>(entries + width), 0);
     exec::for_each(entries, [&](std::int64_t k) {
         const auto i = static_cast<std::size_t>(grid_.index(k));
-        for (std::size_t a = 0; a < 6; ++a) stress_[a][static_cast<std::size_t>(k)] = b.pressure[i] * component(correction_[i], a);
+        for (std::size_t a = 0; a < 6; ++a) stress_[a][static_cast<std::size_t>(k)] = (b.pressure[i] + q_[i]) * component(correction_[i], a);
     }, 1024);
 }
 
@@ -178,7 +197,7 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         sy_[s] = sz_[s] = svx_[s] = svy_[s] = svz_[s] = sr_[s] = 0;
     }
     mu_.resize(static_cast<std::size_t>(n));
-    correct_gradients(b, h_max);
+    responses(b, h_max);
 
     const double alpha = b.options.alpha, beta = b.options.beta;
     struct Acc {
@@ -194,10 +213,9 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
         const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], rho = srho_[s], c = sc_[s], h = sh_[s],
                      r_i = sr_[s];
-        const Sym3<double> l = correction_[i];
         Sym3<V> p_i;
         for (std::size_t a = 0; a < 6; ++a) component(p_i, a) = broadcast<V>(stress_[a][s]);
-        V ax{}, ay{}, az{}, div{}, heat{}, viscous{}, artificial{}, mu_largest{};
+        V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{};
         grid_.ranges(x, y, z, std::min(2 * h_max, h + h_max), [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const auto j = static_cast<std::size_t>(q);
@@ -223,8 +241,6 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
                 ax += volume * push.x + along * p.d.x;
                 ay += volume * push.y + along * p.d.y;
                 az += volume * push.z + along * p.d.z;
-                div += volume * (v.x * (l.xx * p.d.x + l.xy * p.d.y + l.xz * p.d.z) + v.y * (l.xy * p.d.x + l.yy * p.d.y + l.yz * p.d.z) +
-                                 v.z * (l.xz * p.d.x + l.yz * p.d.y + l.zz * p.d.z));
                 const V wv = mj * p.weight * vr;
                 heat -= 0.5 * bracket * wv;
                 viscous -= 0.5 * pi * wv;
@@ -234,11 +250,10 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         b.acceleration[0][i] = hsum(ax) / rho;
         b.acceleration[1][i] = hsum(ay) / rho;
         b.acceleration[2][i] = hsum(az) / rho;
-        b.rho_rate[i] = -hsum(div);
-        b.e_rate[i] = b.pressure[i] / rho * b.rho_rate[i] + hsum(heat);
+        b.e_rate[i] = (b.pressure[i] + q_[i]) / rho * b.rho_rate[i] + hsum(heat);
         mu_[i] = hmax(mu_largest);
         Acc a;
-        a.p.viscous = b.mass[i] * hsum(viscous);
+        a.p.viscous = b.mass[i] * (hsum(viscous) + q_[i] / rho * b.rho_rate[i]);
         a.p.artificial = b.mass[i] * hsum(artificial);
         return a;
     });
@@ -284,7 +299,10 @@ double FluidSolver::stable_rate(const FluidBody& b) const {
         const auto i = static_cast<std::size_t>(k);
         const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
                                    b.acceleration[2][i] * b.acceleration[2][i]);
-        return std::max((b.sound[i] * (1 + 0.6 * b.options.alpha) + 0.6 * b.options.beta * mu_[i]) / b.h[i], std::sqrt(a / b.h[i]));
+        const FluidOptions& o = b.options;
+        const double closing = std::max(b.rho_rate[i], 0.0) * b.h[i];
+        return std::max((b.sound[i] * (1 + 0.6 * o.alpha + 1.2 * o.linear) + 0.6 * o.beta * mu_[i] + 1.2 * o.quadratic * closing) / b.h[i],
+                        std::sqrt(a / b.h[i]));
     });
 }
 

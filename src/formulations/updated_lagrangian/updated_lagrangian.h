@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Updated-Lagrangian SPH for fluids (P only), with r = x_i - x_j, v = v_i - v_j, h = (h_i + h_j)/2, V = m/rho:
 //   d rho_i/dt = rho_i sum V_j v . L_i grad_i W                                                    Eq. 4, its sign made explicit
-//   dv_i/dt    = -1/rho_i sum V_j (P_i L_i + P_j L_j) grad_i W - sum m_j (Pi_ij - (R_i + R_j) f^n) grad_i W       Eq. 5
-//   de_i/dt    = P_i/rho_i^2 d rho_i/dt + 1/2 sum m_j (Pi_ij - (R_i + R_j) f^n) v . grad_i W        Eq. 6 as it must read
+//   dv_i/dt    = -1/rho_i sum V_j ((P + q)_i L_i + (P + q)_j L_j) grad_i W - sum m_j (Pi_ij - (R_i + R_j) f^n) grad_i W       Eq. 5
+//   de_i/dt    = (P + q)_i/rho_i^2 d rho_i/dt + 1/2 sum m_j (Pi_ij - (R_i + R_j) f^n) v . grad_i W        Eq. 6 as it must read
+//   q = rho e (C_q e - C_l c) where e = h div v < 0; it resists compression alone. Pi resists shear as well: in the sheath of a cord, which
+//   thins as it widens, that costs a tenth of the blast.
 //   Pi_ij = (-alpha c mu + beta mu^2)/rho, mu = h v.r/(r^2 + 0.01 h^2) where v.r < 0
 //   R_i = -eps sigma_i/rho_i^2 in tension (a fluid: sigma = -P), f = W(r, h)/W(spacing, h)         Eq. 7
 // L_i = M_i^-1, M_i = -sum V_j r (x) grad_i W, makes div v exact for a velocity that is linear in space, at a free surface too (Randles &
@@ -45,13 +47,15 @@ private:
         V weight, on;     ///< on: 1 for a neighbour before `last`, else 0
     };
     template <class V> Pairs<V> pairs(double x, double y, double z, double h, std::int64_t q, std::int64_t last) const;
-    void correct_gradients(const FluidBody& body, double h_max);
+    /// First pass: L, the divergence, and with it d rho/dt and q; then (P + q) L of every entry.
+    void responses(FluidBody& body, double h_max);
 
     // sorted copies of what neighbours need
     Array<double> sx_, sy_, sz_, svx_, svy_, svz_, sm_, srho_, sc_, sh_, sr_;
-    std::array<Array<double>, 6> stress_;   ///< P L
+    std::array<Array<double>, 6> stress_;   ///< (P + q) L
     std::vector<Sym3<double>> correction_;  ///< L
     Array<double> mu_;  ///< largest |mu| of each particle
+    Array<double> q_;   ///< bulk viscosity of each particle, GPa
 };
 
 /// Lighting times from detonation points: time + distance/D in the initial configuration.
