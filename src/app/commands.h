@@ -20,6 +20,7 @@ struct CaseOptions {
     std::string until;
     int threads = 0;      ///< 0: all
     bool json = false, quiet = false, report = true;
+    int hash_every = 0;   ///< steps between state hashes in the log; 0: none
     std::string command;  ///< the whole command line, for the provenance
 };
 
@@ -30,6 +31,8 @@ void require_memory(const Case& c, const Estimate& e);
 
 int check_command(const CaseOptions& o);
 int run_command(const CaseOptions& o);
+/// Goes on in a run directory from its newest checkpoint (`older`: from the one before).
+int resume_command(const std::string& run, bool older, const CaseOptions& o);
 int analyze_command(const std::string& run, bool json);
 int report_command(const std::vector<std::string>& runs, const std::string& out, bool pdf);
 int view_command(const std::string& run);

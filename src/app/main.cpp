@@ -45,8 +45,21 @@ int main_with_errors(int argc, char** argv) {
     run->add_option("--out", o.out, "run directory (default: runs/<case>-<preset>)");
     run->add_flag("--overwrite", o.overwrite, "replace what an earlier run left in the directory");
     run->add_flag("--quiet", o.quiet, "warnings only");
+    run->add_option("--hash-every", o.hash_every, "log a hash of the whole state every so many steps")->check(CLI::PositiveNumber);
     run->add_flag("!--no-report", o.report, "do not write the report");
     run->callback([&] { code = run_command(o); });
+
+    std::string name;
+    bool older = false;
+    CLI::App* resume = app.add_subcommand("resume", "go on from a checkpoint of a run, to the same bits");
+    resume->add_option("run", name, "run directory")->required();
+    resume->add_option("--until", o.until, "another end time, for example \"200 us\"");
+    resume->add_option("--threads", o.threads, "number of threads (default: all)")->check(CLI::Range(1, 4096));
+    resume->add_flag("--older", older, "from the checkpoint before the newest");
+    resume->add_flag("--quiet", o.quiet, "warnings only");
+    resume->add_flag("!--no-report", o.report, "do not write the report");
+    resume->add_option("--hash-every", o.hash_every, "log a hash of the whole state every so many steps")->check(CLI::PositiveNumber);
+    resume->callback([&] { code = resume_command(name, older, o); });
 
     CLI::App* check = app.add_subcommand("check", "particles, memory, first step, time; runs nothing");
     case_flags(check);
@@ -54,7 +67,7 @@ int main_with_errors(int argc, char** argv) {
     check->callback([&] { code = check_command(o); });
 
     std::vector<std::string> runs;
-    std::string out, name;
+    std::string out;
     bool no_pdf = false, json = false;
     CLI::App* analyze = app.add_subcommand("analyze", "fracture analysis again, from a run's snapshots");
     analyze->add_option("run", name, "run directory")->required();

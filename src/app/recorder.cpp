@@ -101,12 +101,12 @@ std::int64_t count_leaks(const World<R>& w) {
 }
 
 template <class R>
-Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
-    : case_(c), run_(run), audit_(run.file("audit.csv"), audit_columns(w)), history_([&] {
+Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run, bool go_on)
+    : case_(c), run_(run), audit_(run.file("audit.csv"), audit_columns(w), go_on), history_([&] {
           std::vector<CsvColumn> columns{{"t", "us"}};
           for (const SectionData& s : sections_of(c)) columns.push_back({"damaged." + s.name, "-"});
           columns.push_back({"damaged.all", "-"});
-          return CsvFile(run.file("history.csv"), columns);
+          return CsvFile(run.file("history.csv"), columns, go_on);
       }()), snapshots_(run.snapshots()) {
     for (std::size_t i = 0; i < w.solids.size(); ++i)
         if (w.solids[i].body.name == c.analysis.part && c.analysis.zone_radii.size() > 1) {
@@ -144,7 +144,7 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run)
             const SolidBody<R>& b = w.solids[s].body;
             if (b.name != g.part) continue;
             double best = 1e300;
-            Gauge gauge{g.name, s, 0, 0, CsvFile(run.gauges() / (g.name + ".csv"), gauge_columns)};
+            Gauge gauge{g.name, s, 0, 0, CsvFile(run.gauges() / (g.name + ".csv"), gauge_columns, go_on)};
             const double z = c.slice ? c.slice->z : g.at.z;
             for (std::size_t i = 0; i < b.layout.columns.size(); ++i) {
                 const Column& column = b.layout.columns[i];
@@ -221,18 +221,57 @@ std::optional<Audit> Recorder<R>::record(const World<R>& w) {
     if (snapshot_due) {
         ++next_snapshot_;
         write_snapshot(w);
-        for (std::size_t i = 0; i < sections_.size(); ++i)
-            reports_[i].times.push_back(analysis::analyse_section(sample(w, sections_[i]), w.time, options_));
+        analyse(w);
         if (has_analysed_) run_.write_text("analysis/analysis.json", analysis::to_json(fracture_report(w)));
     }
     return row;
 }
 
 template <class R>
-void Recorder<R>::finish(const World<R>& w) {
+void Recorder<R>::analyse(const World<R>& w) {
+    taken_.time.push_back(w.time);
     for (std::size_t i = 0; i < sections_.size(); ++i) {
-        if (reports_[i].times.empty() || reports_[i].times.back().time < w.time)
-            reports_[i].times.push_back(analysis::analyse_section(sample(w, sections_[i]), w.time, options_));
+        const analysis::SectionPoints points = sample(w, sections_[i]);
+        taken_.damage.insert(taken_.damage.end(), points.damage.begin(), points.damage.end());
+        taken_.cause.insert(taken_.cause.end(), points.cause.begin(), points.cause.end());
+        reports_[i].times.push_back(analysis::analyse_section(points, w.time, options_));
+    }
+}
+
+template <class R>
+std::vector<CsvFile*> Recorder<R>::files() {
+    std::vector<CsvFile*> all{&audit_, &history_};
+    for (Gauge& g : gauges_) all.push_back(&g.file);
+    return all;
+}
+
+template <class R>
+std::vector<std::int64_t>& Recorder<R>::file_lengths() {
+    lengths_.clear();
+    for (const CsvFile* f : files()) lengths_.push_back(f->length());
+    return lengths_;
+}
+
+template <class R>
+void Recorder<R>::go_on(const World<R>& w) {
+    const std::vector<CsvFile*> all = files();
+    for (std::size_t i = 0; i < all.size(); ++i) all[i]->cut(lengths_.at(i));
+    std::size_t at = 0;
+    for (const double time : taken_.time)
+        for (std::size_t i = 0; i < sections_.size(); ++i) {
+            analysis::SectionPoints points = sample(w, sections_[i]);  // places stay, damage is that of the time
+            for (std::size_t k = 0; k < points.count(); ++k, ++at) {
+                points.damage[k] = taken_.damage.at(at);
+                points.cause[k] = taken_.cause.at(at);
+            }
+            reports_[i].times.push_back(analysis::analyse_section(points, time, options_));
+        }
+}
+
+template <class R>
+void Recorder<R>::finish(const World<R>& w) {
+    if (!sections_.empty() && (reports_[0].times.empty() || reports_[0].times.back().time < w.time)) analyse(w);
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
         const SolidBody<R>& b = w.solids[analysed_].body;
         CsvFile file(run_.analysis() / ("section_" + sections_[i].data.name + ".csv"),
                      {{"x", "mm"}, {"y", "mm"}, {"size", "mm"}, {"damage", "-"}, {"cause", "-"}, {"failure_time", "us"}});

@@ -17,7 +17,8 @@ namespace brisance {
 template <class R>
 class Recorder {
 public:
-    Recorder(const Case& c, const World<R>& w, const RunDirectory& run);
+    /// `go_on`: append to the files of an earlier run; each_field must then give the recorder its state.
+    Recorder(const Case& c, const World<R>& w, const RunDirectory& run, bool go_on = false);
 
     /// The next time at which something is due; steps end there. us.
     double next_due() const;
@@ -27,6 +28,25 @@ public:
     void finish(const World<R>& w);
 
     std::int64_t leaked() const { return leaked_; }
+
+    /// What a checkpoint holds of the record: what is due next, series, the sections as they were, and how long each file was.
+    template <class V>
+    void each_field(V&& visit) {
+        visit("record.next_history", next_history_);
+        visit("record.next_snapshot", next_snapshot_);
+        visit("record.leaked", leaked_);
+        visit("record.borehole.time", borehole_.time);
+        visit("record.borehole.value", borehole_.value);
+        visit("record.front.time", front_.time);
+        visit("record.front.value", front_.value);
+        visit("record.snapshots", snapshots_.times());
+        visit("record.sections.time", taken_.time);
+        visit("record.sections.damage", taken_.damage);
+        visit("record.sections.cause", taken_.cause);
+        visit("record.files", file_lengths());
+    }
+    /// After each_field has read: files back to their lengths, sections analysed again.
+    void go_on(const World<R>& w);
 
 private:
     struct Gauge {
@@ -43,6 +63,9 @@ private:
     };
     analysis::SectionPoints sample(const World<R>& w, const Section& s) const;
     analysis::FractureReport fracture_report(const World<R>& w) const;
+    void analyse(const World<R>& w);
+    std::vector<CsvFile*> files();
+    std::vector<std::int64_t>& file_lengths();
     void write_gauges(const World<R>& w);
     void write_snapshot(const World<R>& w);
     void write_audit(const Audit& a);
@@ -55,11 +78,17 @@ private:
     std::vector<Gauge> gauges_;
     std::vector<Section> sections_;
     std::vector<analysis::SectionHistory> reports_;
+    /// The sections at each analysis, one after the other: enough to make the reports again.
+    struct {
+        std::vector<double> time, damage;
+        std::vector<std::uint8_t> cause;
+    } taken_;
+    std::vector<std::int64_t> lengths_;
     analysis::SectionOptions options_;
     analysis::TimeSeries borehole_, front_;
     SnapshotSeries snapshots_;
     double next_history_ = 0;
-    std::size_t next_snapshot_ = 0;
+    std::uint64_t next_snapshot_ = 0;
     std::int64_t leaked_ = 0;
 };
 

@@ -43,7 +43,7 @@ void advance(World<R>& w, SolidPart<R>& s, double dt) {
         }
     }
     if (s.slow) plan_ahead(s.surface, dt);
-    else plan(s.surface, kick_time);
+    else plan(s.surface, 0.5 * (w.dt + dt));  // as the other side is kicked: s.dt is longer where the last step was a long one
     book_outer_work(w, s, kick_time);  // the same before and after the kick: f.(v- + v+)/2
     w.ledger.viscous += kick(s.body, s.pairs, kick_time);
     push(s.surface, s.body, kick_time);

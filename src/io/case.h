@@ -109,6 +109,7 @@ struct AnalysisData {
 struct OutputData {
     std::vector<double> snapshot_times;   ///< us
     double history_interval = 0;          ///< us, of gauges, audit and analysis rows
+    double checkpoint_interval = 0;       ///< us of wall time
 };
 
 /// Plane strain: a slab of `layers` layers of spacing_z of the part `reference`, periodic in z, centred at z.

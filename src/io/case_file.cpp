@@ -570,6 +570,7 @@ private:
         }
         if (!node.has("history")) supply(node, "history", in_quotes(shortest(result.until / 1000) + " us"), "until / 1000");
         result.output.history_interval = value(node, "history", dimension::time);
+        result.output.checkpoint_interval = node.at("checkpoint").number;
     }
 
     static void step(const Node& node, Case& result) {

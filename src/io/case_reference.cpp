@@ -198,6 +198,7 @@ Schema make_schema() {
         {.name = "output", .heading = "[output]", .meaning = "", .keys = {
             {.name = "snapshots", .type = Type::quantity, .meaning = "times of snapshots: an interval, or a list; times after `until` are left out", .fallback = "[]", .dimension = dimension::time, .range = not_negative, .count = Count::one_or_list},
             or_else(quantity("history", dimension::time, "interval between rows of gauges, audit and analysis", positive), "until / 1000"),
+            or_default(quantity("checkpoint", dimension::time, "wall time between checkpoints", positive), "\"600 s\""),
         }},
         {.name = "step", .heading = "[step]", .meaning = "", .keys = {
             number("courant_solid", "0.6", "fraction of the stable step of total-Lagrangian parts", {0, 1, true}),

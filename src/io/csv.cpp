@@ -31,10 +31,11 @@ std::string CsvCell::quoted(std::string_view text) {
     return out + '"';
 }
 
-CsvFile::CsvFile(std::filesystem::path path, const std::vector<CsvColumn>& columns)
+CsvFile::CsvFile(std::filesystem::path path, const std::vector<CsvColumn>& columns, bool go_on)
     : path_(std::move(path)), columns_(columns.size()) {
-    fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-    if (fd_ < 0) fail(path_, "cannot create", errno);
+    fd_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | (go_on ? 0 : O_CREAT | O_TRUNC), 0666);
+    if (fd_ < 0) fail(path_, go_on ? "cannot open" : "cannot create", errno);
+    if (go_on) return;
     std::vector<CsvCell> head;
     for (const auto& [name, unit] : columns) head.emplace_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
     try {
@@ -82,6 +83,17 @@ void CsvFile::append(std::span<const CsvCell> cells) {
         if (end < 0 || ::ftruncate(fd_, end - written) != 0) fail(path_, "cannot write, and a torn row remains", error);
     }
     fail(path_, "cannot write", error);
+}
+
+std::int64_t CsvFile::length() const {
+    const off_t end = ::lseek(fd_, 0, SEEK_END);
+    if (end < 0) fail(path_, "cannot tell its length", errno);
+    return end;
+}
+
+void CsvFile::cut(std::int64_t to) {
+    if (length() < to) throw ResourceError(path_.string() + ": is shorter than when the checkpoint was written; rows are missing");
+    if (::ftruncate(fd_, to) != 0) fail(path_, "cannot shorten", errno);
 }
 
 void CsvFile::close() {

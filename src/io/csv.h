@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <concepts>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <span>
@@ -37,8 +38,9 @@ private:
 
 class CsvFile {
 public:
-    /// Creates or truncates, and writes the head. Throws ResourceError with path and cause, as do row() and close().
-    CsvFile(std::filesystem::path path, const std::vector<CsvColumn>& columns);
+    /// Creates or truncates, and writes the head; `go_on` keeps what an earlier run wrote and appends. Throws ResourceError with path and
+    /// cause, as do the others.
+    CsvFile(std::filesystem::path path, const std::vector<CsvColumn>& columns, bool go_on = false);
     CsvFile(CsvFile&& other) noexcept;
     CsvFile& operator=(CsvFile&& other) noexcept;
     ~CsvFile();
@@ -49,6 +51,10 @@ public:
     void row(std::span<const CsvCell> cells);
     /// A row of numbers only.
     void row(std::span<const double> values) { row(std::vector<CsvCell>(values.begin(), values.end())); }
+
+    /// Length of the file, bytes; and back to an earlier one: rows written since are taken out.
+    std::int64_t length() const;
+    void cut(std::int64_t length);
 
     /// Closes and reports what the system has to say; the destructor keeps silent.
     void close();

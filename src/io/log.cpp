@@ -84,9 +84,9 @@ Log::Log(std::FILE* terminal, const Options& options)
 
 Log::~Log() { clear_bar(); }
 
-void Log::open(const std::filesystem::path& path) {
+void Log::open(const std::filesystem::path& path, bool go_on) {
     path_ = path;
-    file_.reset(std::fopen(path.c_str(), "we"));
+    file_.reset(std::fopen(path.c_str(), go_on ? "ae" : "we"));
     if (!file_) throw ResourceError(fmt::format("{}: cannot create: {}", path.string(), std::strerror(errno)));
     keep(std::exchange(early_, {}));
 }

@@ -50,9 +50,9 @@ public:
     /// Leaves the cursor on a fresh line.
     ~Log();
 
-    /// From here on lines go to this file as well; it begins with the lines so far. Throws ResourceError with path and cause, as
+    /// From here on lines go to this file as well; it begins with the lines so far (`go_on`: after what it holds). Throws ResourceError with path and cause, as
     /// does every later line that cannot be written there. The terminal may go away unnoticed.
-    void open(const std::filesystem::path& path);
+    void open(const std::filesystem::path& path, bool go_on = false);
 
     /// `text` may hold several lines; the bar is cleared before and redrawn after.
     void line(std::string_view text);

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* folders[] = {"snapshots", "gauges", "analysis"};
+constexpr const char* folders[] = {"snapshots", "gauges", "analysis", "checkpoints"};
 constexpr const char* written_by_a_run[] = {"case.toml", "provenance.json", "log.txt",   "audit.csv",   "history.csv",
-                                            "gauges",    "analysis",        "snapshots", "report.html", "figures"};
+                                            "gauges",    "analysis",        "snapshots", "report.html", "figures", "checkpoints"};
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
     throw ResourceError(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
@@ -187,6 +187,13 @@ RunDirectory::RunDirectory(fs::path path, bool overwrite) : path_(std::move(path
     } catch (const fs::filesystem_error& error) {
         fail(error.path1().empty() ? path_ : error.path1(), "cannot prepare the folder of the run", error.code());
     }
+}
+
+RunDirectory RunDirectory::existing(fs::path path) {
+    if (!fs::exists(path / "case.toml")) throw InputError(path.string() + ": is not the folder of a run: it has no case.toml");
+    RunDirectory run;
+    run.path_ = std::move(path);
+    return run;
 }
 
 }  // namespace brisance

@@ -69,17 +69,22 @@ public:
     /// removes what a run writes and nothing else. Throws InputError for a refusal, ResourceError where the system refuses.
     RunDirectory(std::filesystem::path path, bool overwrite);
 
+    /// The folder of an earlier run, to go on in it. Throws InputError where it is none.
+    static RunDirectory existing(std::filesystem::path path);
+
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path file(const std::string& name) const { return path_ / name; }
     std::filesystem::path snapshots() const { return path_ / "snapshots"; }
     std::filesystem::path gauges() const { return path_ / "gauges"; }
     std::filesystem::path analysis() const { return path_ / "analysis"; }
+    std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
 
     /// Writes path()/name whole or not at all.
     void write_text(const std::string& name, std::string_view text) const { write_file(file(name), text); }
     void write_provenance(const Provenance& provenance) const { write_text("provenance.json", to_json(provenance)); }
 
 private:
+    RunDirectory() = default;
     std::filesystem::path path_;
 };
 

@@ -64,6 +64,8 @@ public:
     }
 
     std::size_t size() const { return times_us_.size(); }
+    /// The times of the snapshots so far, us; given back, the series goes on from there.
+    std::vector<double>& times() { return times_us_; }
 
 private:
     std::string next_name() const;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The one-dimensional borehole: first against closed forms, then brisance against it."""
 
+import csv
 import json
 import os
 import subprocess
@@ -55,6 +56,11 @@ class AgainstTheReference(unittest.TestCase):
             subprocess.run(command, check=True, capture_output=True, text=True)
             with open(run / "case.toml", "rb") as file:
                 shells = of_case(tomllib.load(file), 1)
+            with open(run / "audit.csv", newline="") as file:
+                last = list(csv.DictReader(file))[-1]
+            self.assertEqual(last["leaked [-]"], "0")
+            self.assertLess(float(last["momentum_residual [-]"]), 1e-13)  # also while parts change between long and short steps
+            self.assertLess(abs(float(last["residual_relative [-]"])), 1e-3)
             stress = json.loads((run / "analysis/analysis.json").read_text())["attenuation"]["radial_stress"]
         shells[-1].edges = edges(shells[-1].edges[0], 16, 0.2)
         model = Shells(shells)
