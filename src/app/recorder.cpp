@@ -3,7 +3,7 @@
 
 #include "analysis/failure_cause.h"
 #include "app/fracture.h"
-
+#include "base/error.h"
 #include "math/eigen.h"
 #include "math/kernel.h"
 
@@ -123,6 +123,9 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run,
         }
         options_ = section_options(c);
         options_.specimen = {std::max(inner, 0.0), outer};
+        if (3 * options_.specimen.hole_radius >= 0.8 * outer)
+            throw InputError(fmt::format("analysis.part = \"{}\": radial cracks are counted between 3 hole radii and 0.8 of the outer radius; here they are "
+                                         "{:g} and {:g} mm. Leave the table [analysis] out for so small a body", c.analysis.part, inner, outer));
         for (const SectionData& s : sections_of(c)) {
             Section section{s, {}, {}};
             for (std::size_t i = 0; i < b.layout.columns.size(); ++i) {

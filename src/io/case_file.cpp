@@ -526,6 +526,8 @@ private:
         std::set<std::string> names;
         for (const Node& node : root_.at("gauge").children) {
             const PartData& part = part_named(node.at("part"), result);
+            if (part.formulation != Formulation::total_lagrangian)
+                fail(node.at("part"), "gauges move with a solid; the part '" + part.name + "' is updated_lagrangian (its fields are in the snapshots)");
             const Node& at = node.at("at");
             const double outside = part.shape->distance(at.point());
             if (outside > part.spacing_far)

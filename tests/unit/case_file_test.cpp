@@ -327,6 +327,7 @@ TEST_F(CaseFile, WrongCasesSayWhereWhatAndWhatIsAllowed) {
         {"T = \"51 MPa\"", "T = {value = \"51 MPa\", @confidence = \"sure\"}", {"not a confidence", "b-M"}},
         {"base = \"test_rock\"\n", "", {"material.soft_rock: the key 'density' is missing"}},
         {"part = \"charge\"\nkind = \"line\"", "@part = \"rock\"\nkind = \"line\"", {"no burn law", "parts that can: charge"}},
+        {"part = \"rock\"\nat = [\"10 mm\"", "@part = \"charge\"\nat = [\"10 mm\"", {"gauges move with a solid", "updated_lagrangian"}},
         {"part = \"rock\"\nat = [\"10 mm\"", "@part = \"rick\"\nat = [\"10 mm\"", {"gauge[0].part = \"rick\"", "did you mean 'rock'?"}},
         // geometry and numbers that can not be
         {"spacing = \"0.5 mm\"", "@spacing = \"0 mm\"", {"out of range", "> 0"}},
