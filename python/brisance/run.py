@@ -353,6 +353,6 @@ def choose_times(available, wanted=PAPER_TIMES):
 
 
 def labels(runs):
-    """A short name for each run: its title, or the folder where titles repeat."""
-    titles = [r.title for r in runs]
-    return [t if titles.count(t) == 1 else f"{t} ({r.path.resolve().name})" for t, r in zip(titles, runs)]
+    """A short name for each run: its title where there is one run, else its folder, which fits beside others (titles where folders repeat)."""
+    folders = [r.path.resolve().name for r in runs]
+    return folders if len(runs) > 1 and len(set(folders)) == len(runs) else [r.title for r in runs]
