@@ -114,6 +114,7 @@ def run_table(runs):
         m = run.provenance.get("machine") or {}
         return ", ".join(str(v) for v in (m.get("cpu"), f"{m['threads']} threads" if m.get("threads") else None) if v) or DASH
     rows = [
+        ("title", lambda r: r.title),
         ("status", lambda r: r.provenance.get("status") or DASH),
         ("case", lambda r: r.provenance.get("case_file") or DASH),
         ("preset", lambda r: r.provenance.get("preset") or DASH),
