@@ -52,6 +52,8 @@ LAWS = {
         "johnson_cook": ({"G": P, "A": P, "B": P, "n": N, "C": N, "m": N, "EPS0": "rate", "T_room": "temperature",
                           "T_melt": "temperature", "c_v": "specific heat", "chi": N}, {f"D{i}": N for i in range(1, 6)} | {"damage": N}),
         "elastic": ({"G": P}, {}),
+        "hjc": ({"G": P, "A": N, "B": N, "C": N, "N": N, "FC": P, "T": P, "EPS0": "rate", "EFMIN": N, "SFMAX": N, "PC": P, "UC": N, "PL": P,
+                 "UL": N, "D1": N, "D2": N, "K1": P, "K2": P, "K3": P}, {}),
     },
     "burn": {"programmed": ({"D": V, "P_CJ": P}, {})},
 }

@@ -36,6 +36,9 @@ template <class Entry> const Entry& find_law(const std::vector<Entry>& entries, 
     throw InputError(fmt::format("{}: {} law = \"{}\" is not known; allowed: {}", data.where, kind, data.law, known));
 }
 
+/// "; source: ...", for what a user has to look up.
+std::string by_source(const std::string& source) { return source.empty() ? "" : "; source: " + source; }
+
 /// The given parameters held against the law's table; fallbacks filled in.
 ParameterSet checked(const std::vector<ParameterInfo>& table, const LawData& data, const ParameterSet& inherited) {
     ParameterSet out;
@@ -58,8 +61,8 @@ ParameterSet checked(const std::vector<ParameterInfo>& table, const LawData& dat
             throw InputError(fmt::format("{}: {} = {} is a {}; law \"{}\" wants a {} such as \"{}\"", v.where, row.name, v.text,
                                          dimension_name(v.dimension), data.law, dimension_name(row.dimension), dimension_example(row.dimension)));
         if (!(v.value >= row.min && v.value <= row.max))
-            throw InputError(fmt::format("{}: {} = {} is outside of {:g} ... {:g} {} ({})", v.where, row.name, v.text, row.min, row.max,
-                                         internal_unit(row.dimension), row.meaning));
+            throw InputError(fmt::format("{}: {} = {} is outside of {:g} ... {:g} {} ({}){}", v.where, row.name, v.text, row.min, row.max,
+                                         internal_unit(row.dimension), row.meaning, by_source(v.source)));
         out[row.name] = v;
     }
     for (const auto& [name, value] : data.parameters) {
@@ -71,17 +74,56 @@ ParameterSet checked(const std::vector<ParameterInfo>& table, const LawData& dat
     return out;
 }
 
-/// c^2 has to be positive on the cold curve until a tenth of the volume is lost; further on, to mu = 0.3, a remark has to do.
+/// Where c^2 of the equation of state is looked at, mu = rho/rho_0 - 1.
+struct Scan {
+    double low, working, high;  ///< refused up to `working`, remarked up to `high`
+};
+Scan scan_of(const Material& m) {
+    // products: from the CJ state, and some compression on top, to twenty times the volume
+    if (m.burn) return {-0.95, 1 / m.burn->cj_volume - 1, 1.2 * (1 / m.burn->cj_volume - 1)};
+    // gases: from a tenth of the density to twice
+    if (m.eos->pressure_floor() == 0 && m.eos->initial_energy() > 0) return {-0.9, 1, 3};
+    // solids and liquids: a tenth of the volume, or of the density, lost
+    return {-0.1, 1.0 / 9, 0.3};
+}
+
+/// c^2 > 0 on the curves that bound what a run reaches: the isentrope from rest, the Hugoniot, and the curve of constant energy.
 void check_sound_speed(Material& m, const MaterialData& data) {
-    for (double mu = 0; mu <= 0.3; mu += 0.001) {
-        const double stiffness = m.eos->stiffness(mu, m.eos->initial_energy());
-        if (stiffness > 0) continue;
-        const std::string what = fmt::format("equation of state \"{}\" of {} has c^2 <= 0 at mu = {:.3f} (rho_0 c^2 = {:.3g} GPa)", data.eos.law,
-                                             data.name, mu, stiffness);
-        if (mu < 1.0 / 9) throw InputError(data.eos.where + ": " + what);
-        m.remarks.push_back("warning: " + what);
-        return;
-    }
+    const Eos& eos = *m.eos;
+    const Scan scan = scan_of(m);
+    const double e0 = eos.initial_energy(), p0 = m.burn ? 0 : eos.pressure(0, e0);
+    double isentropic = e0, mu_before = 0;
+    std::string warned;
+    // tells whether all is well
+    const auto look = [&](double mu) {
+        const EosTerms<double> t = eos.terms(mu);
+        const double v = 1 / (1 + mu), dv = v - 1 / (1 + mu_before), swept = 0.5 * (1 - v);
+        isentropic = (isentropic - 0.5 * dv * (eos.pressure(mu_before, isentropic) + t.a)) / (1 + 0.5 * dv * t.b);
+        mu_before = mu;
+        const double energies[] = {isentropic, e0, mu > 0 && swept * t.b < 0.9 ? (e0 + swept * (t.a + p0)) / (1 - swept * t.b) : e0};
+        for (const double energy : energies) {
+            const double stiffness = eos.stiffness(mu, energy);
+            if (stiffness > 0) continue;
+            const std::string what = fmt::format("equation of state \"{}\" of {} has c^2 <= 0 at mu = {:.3f}, E = {:.3g} GPa (rho_0 c^2 = {:.3g} GPa){}",
+                                                 data.eos.law, data.name, mu, energy, stiffness, by_source(data.source));
+            if (mu <= scan.working) throw InputError(data.eos.where + ": " + what);
+            if (warned.empty()) warned = "warning: " + what;
+        }
+        return warned.empty();
+    };
+    constexpr int steps = 600;
+    for (int i = 0; i <= steps && look(scan.high * i / steps); ++i) {}
+    isentropic = e0;
+    mu_before = 0;
+    for (int i = 1; i <= steps; ++i) look(std::pow(1 + scan.low, static_cast<double>(i) / steps) - 1);  // equal steps of the logarithm
+    if (!warned.empty()) m.remarks.push_back(warned);
+}
+
+/// A solid that thickens when it is pulled is a mistake in K or G.
+void check_poisson(Material& m, const MaterialData& data) {
+    const double k = m.bulk_modulus(), g = m.strength->shear_modulus(), nu = (3 * k - 2 * g) / (6 * k + 2 * g);
+    if (nu < 0)
+        m.remarks.push_back(fmt::format("warning: K = {:.4g} GPa and G = {:.4g} GPa give Poisson's ratio {:.3f} < 0{}", k, g, nu, by_source(data.source)));
 }
 
 }  // namespace
@@ -135,8 +177,10 @@ Material make_material(const MaterialData& data) {
         const StrengthEntry& law = find_law(strength_registry(), *data.strength, "strength");
         m.strength = law.make(checked(law.parameters, *data.strength, inherited), *m.eos, m.density);
         m.remarks = m.strength->remarks();
+        for (std::string& r : m.remarks)
+            if (r.starts_with("warning")) r += by_source(data.source);
+        check_poisson(m, data);
     }
-    check_sound_speed(m, data);
     if (data.burn) {
         if (data.burn->law != "programmed")
             throw InputError(fmt::format("{}: burn law = \"{}\" is not known; allowed: programmed", data.burn->where, data.burn->law));
@@ -144,15 +188,16 @@ Material make_material(const MaterialData& data) {
         BurnLaw burn{p.at("D").value, p.at("P_CJ").value, 0};
         burn.cj_volume = 1 - burn.cj_pressure / (m.density * burn.speed * burn.speed);
         if (!(burn.cj_volume > 0.3 && burn.cj_volume < 1))
-            throw InputError(fmt::format("{}: P_CJ = {} and D = {} give V_CJ = {:.3f}, which no explosive has", p.at("P_CJ").where,
-                                         p.at("P_CJ").text, p.at("D").text, burn.cj_volume));
+            throw InputError(fmt::format("{}: P_CJ = {} and D = {} give V_CJ = {:.3f}, which no explosive has{}", p.at("P_CJ").where,
+                                         p.at("P_CJ").text, p.at("D").text, burn.cj_volume, by_source(p.at("P_CJ").source)));
         const CjState cj = chapman_jouguet(*m.eos, m.density);
         m.remarks.push_back(fmt::format("CJ state of the products: D = {:.0f} m/s ({:+.2f} %), P = {:.2f} GPa ({:+.1f} %)", 1e3 * cj.speed,
                                         100 * (cj.speed / burn.speed - 1), cj.pressure, 100 * (cj.pressure / burn.cj_pressure - 1)));
         if (std::abs(cj.speed / burn.speed - 1) > 0.01 || std::abs(cj.pressure / burn.cj_pressure - 1) > 0.03)
-            m.remarks.push_back("warning: the products miss the stated CJ state by more than 1 % in D or 3 % in P");
+            m.remarks.push_back("warning: the products miss the stated CJ state by more than 1 % in D or 3 % in P" + by_source(data.source));
         m.burn = std::make_shared<const BurnLaw>(burn);
     }
+    check_sound_speed(m, data);
     return m;
 }
 

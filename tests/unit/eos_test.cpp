@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Equations of state. First what every registered law has to obey, whatever its name; then closed forms and tables of single laws.
+#include "laws/point_path.h"
 #include "law_helpers.h"
 
 using namespace brisance;
@@ -46,6 +47,42 @@ Material products(const JwlSet& s) {
 const JwlSet petn_1320{"PETN 1.32", 586, 21.6, 5.81, 1.77, 0.282, 7.38, 1.32};
 
 }  // namespace
+
+TEST(EveryEos, HugoniotKeepsMassMomentumAndEnergy) {
+    // u^2 = (P - P_0)(V_0 - V), U = (P - P_0)/(rho_0 u), E - E_0 = (P + P_0)(V_0 - V)/2, the weak end runs with the sound speed; and where the
+    // law is a fit U = C + S1 u, that line
+    for (const EosEntry& entry : eos_entries())
+        for (const MaterialData& data : users_of(entry)) {
+            SCOPED_TRACE(entry.name + " of " + data.name);
+            MaterialData fluid = data;
+            fluid.strength.reset();
+            const Material m = make_material(fluid);
+            if (m.burn) continue;
+            const double c = m.sound_speed(), u = 0.1 * c;
+            PathLeg shock;
+            shock.kind = PathLeg::Kind::shock;
+            shock.target = u;
+            shock.steps = 100;
+            const std::vector<PathPoint> rows = drive(m, {"shock", {shock}, 1});
+            const double P0 = rows[0].pressure, E0 = m.eos->initial_energy();
+            for (const PathPoint& r : rows) {
+                if (r.leg == 0) continue;
+                const double swept = 1 - r.volume;
+                ASSERT_NEAR(r.pressure, m.eos->pressure(1 / r.volume - 1, r.energy), 1e-12 * r.pressure);
+                ASSERT_NEAR(r.energy - E0, 0.5 * (r.pressure + P0) * swept, 1e-11 * r.pressure);
+                ASSERT_NEAR(r.pressure - P0, m.density * r.shock_speed * r.particle_velocity, 1e-11 * r.pressure);
+                ASSERT_NEAR(r.particle_velocity, r.shock_speed * swept, 1e-11 * u);
+                ASSERT_GT(r.sound_speed * r.sound_speed, 0);
+                const auto& p = data.eos.parameters;
+                if (p.count("S1") && p.at("S2").value == 0 && p.at("S3").value == 0) {
+                    ASSERT_NEAR(r.shock_speed, p.at("C").value + p.at("S1").value * r.particle_velocity, 1e-8 * c);
+                }
+            }
+            shock.target = 1e-5 * c;
+            shock.steps = 1;
+            EXPECT_NEAR(drive(m, {"weak shock", {shock}, 1}).back().shock_speed, c, 0.002 * c);
+        }
+}
 
 // ---- every law
 

@@ -22,7 +22,7 @@
 namespace brisance::law_test {
 
 /// rapidcheck draws the same cases in every run; RC_PARAMS in the environment overrides it.
-inline const bool fixed_seed = [] { return setenv("RC_PARAMS", "seed=1994 max_success=400", 0) == 0; }();
+inline const bool fixed_seed = [] { return setenv("RC_PARAMS", "seed=1994 max_success=3000", 0) == 0; }();
 
 // ---- materials
 

@@ -124,12 +124,49 @@ TEST(Material, SoundSpeedsOfTheGranites) {
 }
 
 TEST(Material, APressureLawThatTurnsIsRemarkedOrRefused) {
-    EXPECT_TRUE(remarks(library("concrete_jh2"), "has c^2 <= 0 at mu = 0.289"));  // 16.667 + 146.38 mu - 708.6 mu^2 = 0
+    EXPECT_TRUE(remarks(library("concrete_jh2"), "has c^2 <= 0 at mu = 0.288"));  // 16.667 + 146.38 mu - 708.6 mu^2 = 0 at 0.2882
     EXPECT_FALSE(remarks(library("barre_granite"), "c^2"));
     EXPECT_FALSE(remarks(library("hard_rock_ma_an"), "c^2"));
     MaterialData data = read_material("barre_granite");
     set(data.eos, {{"K2", -1500}});  // 25.7 - 3000 mu + 38400 mu^2 < 0 from mu = 0.0098
     expect_refusal(data, data.eos.where, "c^2 <= 0 at mu = 0.010");
+}
+
+TEST(Material, NoSoundAnywhereInTheWorkingRangeIsRefusedWithItsSource) {
+    // tension: -K Gamma mu of the energy term outgrows K: c^2 = K (1 + mu Gamma/(1+mu)^2) / rho_0 < 0 before a tenth of the density is lost
+    MaterialData water = read_material("water");
+    set(water.eos, {{"Gamma0", 9.5}, {"pressure_cutoff", -1e4}});
+    expect_refusal(water, water.eos.where, "c^2 <= 0 at mu = -0.0");
+    EXPECT_TRUE(says(refusal(water), water.source)) << refusal(water);
+    // products far out: B < 0 pulls the pressure back in while they still expand
+    MaterialData petn = read_material("petn_1320");
+    set(petn.eos, {{"B", -21.6}});
+    expect_refusal(petn, petn.eos.where, "c^2 <= 0");
+    EXPECT_TRUE(says(refusal(petn), petn.source));
+    EXPECT_EQ(refusal(read_material("air")), "no error");
+}
+
+TEST(Material, WarningsCarryTheSourceOfTheRow) {
+    for (const char* name : {"hmx", "petn_880", "concrete_jh2", "silicon_carbide"}) {
+        const MaterialData data = read_material(name);
+        int warnings = 0;
+        for (const std::string& r : make_material(data).remarks)
+            if (says(r, "warning")) {
+                ++warnings;
+                EXPECT_TRUE(says(r, "source: " + data.source)) << r;
+            }
+        EXPECT_GE(warnings, 1) << name;
+    }
+    MaterialData hard = read_material("barre_granite");
+    set(*hard.strength, {{"G", 40}, {"HEL", 6}});
+    EXPECT_TRUE(remarks(make_material(hard), "Poisson's ratio"));  // (3 K - 2 G) < 0
+}
+
+TEST(Material, AnHelBelowItsPressureIsRefusedWithItsSource) {
+    MaterialData data = read_material("alumina");
+    set(*data.strength, {{"PHEL", 3}});
+    expect_refusal(data, data.strength->parameters.at("PHEL").where, "is not below HEL");
+    EXPECT_TRUE(says(refusal(data), data.strength->parameters.at("HEL").source));
 }
 
 TEST(Material, UnknownLawsNameTheOnesThereAre) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hypoelastic: s grows with 2 G dev d, without limit. For elastic verification.
+// Hypoelastic: s grows with 2 G dev d, without limit. For elastic verification. It never damages of itself; its column holds what the
+// strengths of [part.NAME.failure] say.
 #include "laws/strength.h"
 
 namespace brisance {
@@ -9,7 +10,7 @@ struct Elastic {
     static constexpr const char* name = "elastic";
     static constexpr const char* meaning = "linear elastic shear, no yield";
     static std::vector<ParameterInfo> parameters() { return {{"G", dimension::pressure, "shear modulus", 0, 1e4}}; }
-    static std::vector<StateInfo> state() { return {}; }
+    static std::vector<StateInfo> state() { return {{"damage", "-", "failed by a strength of the case", 0}}; }
     Elastic(const ParameterSet& p, const Eos&, double) : G(p.at("G").value) {}
     double shear_modulus() const { return G; }
 

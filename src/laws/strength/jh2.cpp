@@ -59,7 +59,7 @@ struct Jh2 {
         shel = p.at("SHEL").value > 0 ? p.at("SHEL").value : 1.5 * (hel - phel);
         if (!(shel > 0))
             throw InputError(p.at("PHEL").where + ": PHEL = " + p.at("PHEL").text + " is not below HEL = " + p.at("HEL").text +
-                             ": the strength at the HEL, 1.5 (HEL - PHEL), would not be positive");
+                             ": the strength at the HEL, 1.5 (HEL - PHEL), would not be positive; source: " + p.at("HEL").source);
     }
     double shear_modulus() const { return G; }
 
@@ -83,7 +83,8 @@ struct Jh2 {
         std::vector<std::string> r;
         const double off = phel / phel_of_eos - 1;
         if (std::abs(off) > 0.01)
-            r.push_back(printed("PHEL = %.4g GPa is %+.1f %% off the %.4g GPa that HEL, G and the equation of state give", phel, 100 * off, phel_of_eos));
+            r.push_back(printed("%sPHEL = %.4g GPa is %+.1f %% off the %.4g GPa that HEL, G and the equation of state give",
+                                std::abs(off) > 0.05 ? "warning: " : "", phel, 100 * off, phel_of_eos));
         const double at_hel = A * std::pow(1 + T / phel, N);
         if (std::abs(at_hel - 1) > 0.05)
             r.push_back(printed("A (1 + T*)^N = %.3f at the HEL, not 1: the HEL is not a yield point of this set", at_hel));

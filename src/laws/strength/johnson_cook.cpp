@@ -41,7 +41,7 @@ struct JohnsonCook {
           eps0(p.at("EPS0").value), t_span(p.at("T_melt").value - p.at("T_room").value), heat(p.at("chi").value / (density * p.at("c_v").value)),
           damages(p.at("damage").value > 0) {
         if (!(t_span > 0))
-            throw InputError(p.at("T_melt").where + ": T_melt = " + p.at("T_melt").text + " is not above T_room = " + p.at("T_room").text);
+            throw InputError(p.at("T_melt").where + ": T_melt = " + p.at("T_melt").text + " is not above T_room = " + p.at("T_room").text + "; source: " + p.at("T_melt").source);
         if (n == 0) {  // eps^0 = 1 also at eps = 0
             A += B;
             B = 0;
