@@ -45,6 +45,8 @@ void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs, doub
             n = normal;  // a crushed particle's gradient says nothing of the wall any more
             length = jacobian = 1;
         }
+        // A torn particle is no wall: debris in the midst of gas would be pushed from one side only. Its neighbours on the wall cover its place.
+        s.area[p] = b.live[slot] > R(0) ? column.wall_length * b.layout.dz : 0.0;
         const double delta = column.wall_distance * std::clamp(jacobian / length, 0.5, 1.5);
         s.nx[p] = n.x / length;
         s.ny[p] = n.y / length;

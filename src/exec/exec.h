@@ -3,8 +3,10 @@
 // give the same bits with any number of threads.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <new>
 #include <vector>
 
@@ -14,14 +16,27 @@
 
 namespace brisance {
 
-/// Memory on 64-byte boundaries, so that a pack never straddles a cache line.
+/// Memory on 64-byte boundaries, so that a pack never straddles a cache line. One array after the other begins one line further into its
+/// page: equal slots of arrays of one size would else lie in the same set of the cache and drive each other out.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
+    static constexpr std::size_t line = 64, lines_of_a_page = 64;
     AlignedAllocator() = default;
     template <class U> AlignedAllocator(const AlignedAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    T* allocate(std::size_t n) {
+        if (n > (std::size_t{1} << 48)) throw std::bad_array_new_length();
+        static std::atomic<std::size_t> next{0};
+        const std::size_t ahead = line * (1 + next++ % lines_of_a_page);
+        char* const block = static_cast<char*>(::operator new(n * sizeof(T) + line * lines_of_a_page, std::align_val_t(line)));
+        std::memcpy(block + ahead - sizeof block, &block, sizeof block);  // where it began, for deallocate
+        return reinterpret_cast<T*>(block + ahead);
+    }
+    void deallocate(T* p, std::size_t) {
+        char* block;
+        std::memcpy(&block, reinterpret_cast<char*>(p) - sizeof block, sizeof block);
+        ::operator delete(block, std::align_val_t(line));
+    }
     template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
 };
 template <class T> using Array = std::vector<T, AlignedAllocator<T>>;
@@ -43,10 +58,18 @@ inline void set_threads(int n) {
 #endif
 }
 
+/// How loops are handed out to the threads. Results do not depend on it: tests/unit/determinism_test.cpp tries them all.
+enum class Schedule { dynamic, fixed, guided };
+inline Schedule schedule = Schedule::dynamic;
+
 /// f(i) for i in [0, n), in any order, in runs of `grain` items. Items must not depend on each other.
 template <class F>
 void for_each(std::int64_t n, F&& f, int grain = 64) {
-#pragma omp parallel for schedule(dynamic, grain)
+#ifdef _OPENMP
+    constexpr omp_sched_t kinds[] = {omp_sched_dynamic, omp_sched_static, omp_sched_guided};
+    omp_set_schedule(kinds[static_cast<int>(schedule)], grain);
+#endif
+#pragma omp parallel for schedule(runtime)
     for (std::int64_t i = 0; i < n; ++i) f(i);
 }
 

@@ -179,7 +179,8 @@ std::vector<Vec2> zeroth_order_error(const std::vector<Vec2>& points, const std:
 }
 
 void polish(Relaxing& cloud, const Section& section, int steps, double smoothing) {
-    constexpr double rate = 0.15, momentum = 0.7;  // descent with inertia; faster ones let pairs of points drift together
+    constexpr double momentum = 0.7;  // descent with inertia; faster ones let pairs of points drift together
+    const double rate = 0.15 * std::pow(std::min(smoothing / 1.3, 1.0), 8);  // the curvature of E^2 grows like h^-8
     constexpr double closest = 0.72;               // spacings: nearer pairs are held apart
     constexpr int interval = 5;                    // steps for which areas and K are kept
     const std::size_t n = cloud.points.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD packs: V is either a scalar R or a 64-byte pack of R. Kernels and laws are written once, on V, without branches:
+// SIMD packs: V is either a scalar R or a pack of R, 64 bytes with AVX-512, else 32. Kernels and laws are written once, on V, without branches:
 // (x > y) ? a : b works for both. In a build for CUDA a pack is one number everywhere, since there a thread is a lane.
 #pragma once
 
@@ -8,6 +8,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
+
+#if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
+#include <immintrin.h>
+#endif
 
 namespace brisance {
 
@@ -21,47 +26,53 @@ template <> struct BitsOf<float> { using type = std::int32_t; };
 template <> struct PackOf<double> { using type = double; };
 template <> struct PackOf<float> { using type = float; };
 #else
-typedef double Pack8d __attribute__((vector_size(64)));
-typedef float Pack16f __attribute__((vector_size(64)));
-typedef std::int64_t Pack8i __attribute__((vector_size(64)));
-typedef std::int32_t Pack16i __attribute__((vector_size(64)));
-template <> struct PackOf<double> { using type = Pack8d; };
-template <> struct PackOf<float> { using type = Pack16f; };
-template <> struct ScalarOf<Pack8d> { using type = double; };
-template <> struct ScalarOf<Pack16f> { using type = float; };
-template <> struct BitsOf<Pack8d> { using type = Pack8i; };
-template <> struct BitsOf<Pack16f> { using type = Pack16i; };
+// As wide as the registers: wider vectors are taken apart, and their comparisons lane by lane.
+#ifdef __AVX512F__
+inline constexpr int pack_bytes = 64;
+#else
+inline constexpr int pack_bytes = 32;
+#endif
+typedef double PackD __attribute__((vector_size(pack_bytes)));
+typedef float PackF __attribute__((vector_size(pack_bytes)));
+typedef std::int64_t PackD_bits __attribute__((vector_size(pack_bytes)));
+typedef std::int32_t PackF_bits __attribute__((vector_size(pack_bytes)));
+template <> struct PackOf<double> { using type = PackD; };
+template <> struct PackOf<float> { using type = PackF; };
+template <> struct ScalarOf<PackD> { using type = double; };
+template <> struct ScalarOf<PackF> { using type = float; };
+template <> struct BitsOf<PackD> { using type = PackD_bits; };
+template <> struct BitsOf<PackF> { using type = PackF_bits; };
 #endif
 }  // namespace detail
 
 template <class R> using Pack = typename detail::PackOf<R>::type;
 template <class V> using ScalarOf = typename detail::ScalarOf<V>::type;
-/// Number of lanes in V, and in the pack of R: 8 doubles or 16 floats (1 under nvcc).
+/// Number of lanes in V, and in the pack of R: 8 doubles or 16 floats with AVX-512, half as many without (1 under nvcc).
 template <class V> inline constexpr int lanes_of = static_cast<int>(sizeof(V) / sizeof(ScalarOf<V>));
 template <class R> inline constexpr int lanes = lanes_of<Pack<R>>;
 
-template <class V> BRISANCE_HD inline V load(const ScalarOf<V>* p) {
+template <class V> BRISANCE_INLINE V load(const ScalarOf<V>* p) {
     V v;
     std::memcpy(&v, p, sizeof(V));
     return v;
 }
-template <class V> BRISANCE_HD inline void store(ScalarOf<V>* p, V v) { std::memcpy(p, &v, sizeof(V)); }
+template <class V> BRISANCE_INLINE void store(ScalarOf<V>* p, V v) { std::memcpy(p, &v, sizeof(V)); }
 /// Every lane the same number.
-template <class V> BRISANCE_HD inline V broadcast(ScalarOf<V> r) { return V{} + r; }
-template <class V> BRISANCE_HD inline ScalarOf<V> lane(const V& v, int l) {
+template <class V> BRISANCE_INLINE V broadcast(ScalarOf<V> r) { return V{} + r; }
+template <class V> BRISANCE_INLINE ScalarOf<V> lane(const V& v, int l) {
     ScalarOf<V> r;
     std::memcpy(&r, reinterpret_cast<const char*>(&v) + static_cast<std::size_t>(l) * sizeof(r), sizeof(r));
     return r;
 }
 
-template <class V> BRISANCE_HD inline V vmax(V a, V b) { return (a > b) ? a : b; }
-template <class V> BRISANCE_HD inline V vmin(V a, V b) { return (a < b) ? a : b; }
-template <class V> BRISANCE_HD inline V vabs(V a) { return (a < V{}) ? -a : a; }
-template <class V> BRISANCE_HD inline V clamp(V x, V lo, V hi) { return vmin(vmax(x, lo), hi); }
+template <class V> BRISANCE_INLINE V vmax(V a, V b) { return (a > b) ? a : b; }
+template <class V> BRISANCE_INLINE V vmin(V a, V b) { return (a < b) ? a : b; }
+template <class V> BRISANCE_INLINE V vabs(V a) { return (a < V{}) ? -a : a; }
+template <class V> BRISANCE_INLINE V clamp(V x, V lo, V hi) { return vmin(vmax(x, lo), hi); }
 /// Square of x.
-template <class V> BRISANCE_HD inline V sq(V x) { return x * x; }
+template <class V> BRISANCE_INLINE V sq(V x) { return x * x; }
 
-template <class V> BRISANCE_HD inline V vsqrt(V x) {
+template <class V> BRISANCE_INLINE V vsqrt(V x) {
     if constexpr (lanes_of<V> == 1) {
         return std::sqrt(x);
     } else {
@@ -71,27 +82,106 @@ template <class V> BRISANCE_HD inline V vsqrt(V x) {
     }
 }
 /// Lanes to and from float, for columns that are stored in single precision whatever V is.
-template <class V> BRISANCE_HD inline V load_float(const float* p) {
+template <class V> BRISANCE_INLINE V load_float(const float* p) {
     V v{};
     if constexpr (lanes_of<V> == 1) v = static_cast<ScalarOf<V>>(*p);
     else
         for (int l = 0; l < lanes_of<V>; ++l) v[l] = static_cast<ScalarOf<V>>(p[l]);
     return v;
 }
-template <class V> BRISANCE_HD inline void store_float(float* p, V v) {
+template <class V> BRISANCE_INLINE void store_float(float* p, V v) {
     for (int l = 0; l < lanes_of<V>; ++l) p[l] = static_cast<float>(lane(v, l));
 }
-/// Largest lane.
-template <class V> BRISANCE_HD inline ScalarOf<V> hmax(V x) {
-    ScalarOf<V> m = lane(x, 0);
-    for (int l = 1; l < lanes_of<V>; ++l) m = lane(x, l) > m ? lane(x, l) : m;
-    return m;
+namespace detail {
+#ifndef BRISANCE_CUDA
+/// Lane l of the result is lane l ^ step of x.
+template <int step, class V, int... l> BRISANCE_INLINE V exchanged(V x, std::integer_sequence<int, l...>) { return __builtin_shufflevector(x, x, (l ^ step)...); }
+template <int step, class V> BRISANCE_INLINE V exchanged(V x) { return exchanged<step>(x, std::make_integer_sequence<int, lanes_of<V>>{}); }
+/// Lanes of a and b such that, done for all rows r and r + step of a square of lanes, blocks of `step` change sides.
+template <int step, class V, int... l> BRISANCE_INLINE void swap_blocks(V& a, V& b, std::integer_sequence<int, l...>) {
+    const V low = __builtin_shufflevector(a, b, ((l & step) ? l - step + static_cast<int>(sizeof...(l)) : l)...);
+    b = __builtin_shufflevector(a, b, ((l & step) ? l + static_cast<int>(sizeof...(l)) : l + step)...);
+    a = low;
 }
-/// Sum of the lanes, in their order.
-template <class V> BRISANCE_HD inline ScalarOf<V> hsum(V x) {
-    ScalarOf<V> s = lane(x, 0);
-    for (int l = 1; l < lanes_of<V>; ++l) s += lane(x, l);
-    return s;
+template <int step, class V> BRISANCE_INLINE void transpose(V* rows) {
+    constexpr int n = lanes_of<V>;
+    for (int r = 0; r < n; ++r)
+        if (!(r & step)) swap_blocks<step>(rows[r], rows[r + step], std::make_integer_sequence<int, n>{});
+    if constexpr (2 * step < n) transpose<2 * step>(rows);
+}
+#endif
+template <int step, class V, class F> BRISANCE_INLINE V folded(V x, F&& f) {
+    if constexpr (step == 0) return x;
+#ifndef BRISANCE_CUDA
+    else return folded<step / 2>(f(x, exchanged<step>(x)), f);
+#endif
+}
+}  // namespace detail
+
+/// Largest lane.
+template <class V> BRISANCE_INLINE ScalarOf<V> hmax(V x) {
+    return lane(detail::folded<lanes_of<V> / 2>(x, [](V a, V b) { return vmax(a, b); }), 0);
+}
+/// Sum of the lanes: halves, then quarters, ...
+template <class V> BRISANCE_INLINE ScalarOf<V> hsum(V x) {
+    return lane(detail::folded<lanes_of<V> / 2>(x, [](V a, V b) { return a + b; }), 0);
+}
+
+/// Whether a comparison of two packs holds in any lane.
+template <class Mask> BRISANCE_INLINE bool any_lane(Mask on) {
+    if constexpr (sizeof(Mask) <= sizeof(std::int64_t)) {
+        return on != 0;
+    } else {
+#if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
+        if constexpr (sizeof(Mask) == 64) return _mm512_test_epi64_mask((__m512i)on, (__m512i)on) != 0;
+#endif
+        bool found = false;
+        for (std::size_t l = 0; l < sizeof(on) / sizeof(on[0]); ++l) found |= on[l] != 0;
+        return found;
+    }
+}
+
+/// Records of eight numbers, one cache line each: out[c] gets component c of the records at first[l], one per lane.
+template <class V> BRISANCE_INLINE void load_records(const ScalarOf<V>* records, const std::int32_t* first, V out[8]) {
+    constexpr int n = lanes_of<V>;
+#ifndef BRISANCE_CUDA
+    if constexpr (n == 8 || n == 4) {
+        for (int part = 0; part < 8; part += n) {
+            for (int l = 0; l < n; ++l) out[part + l] = load<V>(records + 8 * static_cast<std::int64_t>(first[l]) + part);
+            detail::transpose<1>(out + part);
+        }
+        return;
+    }
+#endif
+    for (int c = 0; c < 8; ++c) {
+        ScalarOf<V> lanes_now[n];
+        for (int l = 0; l < n; ++l) lanes_now[l] = records[8 * static_cast<std::int64_t>(first[l]) + c];
+        out[c] = load<V>(lanes_now);
+    }
+}
+
+/// Writes first + l for each lane l where `on` holds (a comparison of two packs), one after the other; returns how many. May overwrite as
+/// many places as a pack has lanes.
+template <class V, class Mask> BRISANCE_INLINE int list_lanes(std::int32_t* out, std::int32_t first, Mask on) {
+    if constexpr (lanes_of<V> == 1) {
+        *out = first;
+        return on ? 1 : 0;
+    } else {
+#if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
+        if constexpr (sizeof(V) == 64 && lanes_of<V> == 8) {
+            const __mmask8 mask = _mm512_test_epi64_mask((__m512i)on, (__m512i)on);
+            const __m256i number = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_maskz_compress_epi32(mask, number));
+            return __builtin_popcount(mask);
+        }
+#endif
+        int n = 0;
+        for (int l = 0; l < lanes_of<V>; ++l) {
+            out[n] = first + l;
+            n += on[l] != 0;
+        }
+        return n;
+    }
 }
 
 }  // namespace brisance

@@ -21,6 +21,12 @@ struct FluidOptions {
     double h_min = 0.5, h_max = 5;      ///< limits of h over its initial value
 };
 
+/// A plane of symmetry, normal to an axis: the flow beyond is the flow before it, mirrored.
+struct Mirror {
+    int axis = 0;       ///< 0, 1, 2: x, y, z
+    double at = 0;      ///< its place on that axis, mm
+};
+
 struct FluidBody {
     std::string name;
     Material material;
@@ -28,11 +34,14 @@ struct FluidBody {
     double spacing = 0;                 ///< initial, mm
     double z_low = 0, period = 0;       ///< periodic in z when period > 0, mm
 
+    std::vector<Mirror> mirrors;
+
     std::array<Array<double>, 3> x, v, v_now, acceleration;  ///< mm, mm/us, mm/us2
     Array<double> mass;                 ///< mg
     Array<double> rho, rho_now, rho_rate;   ///< g/cm3; rate relative: d(ln rho)/dt, 1/us
     Array<double> e, e_now, e_rate;         ///< specific internal energy, km2/s2 (= kJ/g)
     Array<double> pressure, sound, h;       ///< GPa, mm/us, mm
+    Array<double> rho_start;            ///< g/cm3, where it differs from the material's; else empty
     Array<double> lit;                  ///< us, when the detonation arrives (burn only)
     Array<double> burnt;                ///< fraction
     Array<double> peak_pressure;        ///< GPa

@@ -16,6 +16,7 @@ namespace brisance {
 struct FailureRule {
     int mode = 0;                       ///< 0: the law alone; 1: no tension, no shear; 2: all stresses vanish (once damage is 1)
     double tensile = 0, shear = 0;      ///< GPa; principal-stress failure as a criterion of its own (0: off)
+    double fracture_energy = 0; ///< G_f, J/mm2: tensile failure softens as a crack band (laws/crack_band.h) in place of failing at once; 0: off
     double notice = 0;          ///< GPa; principal stresses are followed where the von Mises stress is above
     double threshold = 0.8;             ///< damage at which a particle counts as failed, and its failure time is noted
 };
@@ -49,6 +50,7 @@ struct SolidBody {
     Array<R> scale;                 ///< strength scale of the place
     Array<R> live;                  ///< 1: takes part in the sums; 0: padding or torn
     std::vector<Array<R>> state;    ///< the law's columns
+    Array<R> opening;               ///< volume strain of open cracks; only with a fracture energy
     // what analysis wants, in single precision
     Array<float> peak_pressure, peak_radial;     ///< GPa, largest so far (radial: compression positive)
     Array<float> sigma_1, tau_max;               ///< GPa, largest before failure
@@ -67,6 +69,7 @@ struct SolidBody {
 template <class R>
 struct SolidView {
     const R* u[3];
+    const R* v[3];
     const R* v_now[3];
     const R* T[9];
     const R* stiffness;
@@ -77,6 +80,7 @@ SolidView<R> view(const SolidBody<R>& b) {
     SolidView<R> s{};
     for (std::size_t k = 0; k < 3; ++k) {
         s.u[k] = b.u[k].data();
+        s.v[k] = b.v[k].data();
         s.v_now[k] = b.v_now[k].data();
     }
     for (std::size_t k = 0; k < 9; ++k) s.T[k] = b.T[k].data();
@@ -99,6 +103,7 @@ void allocate(SolidBody<R>& b) {
     for (auto& a : b.s) a.assign(n, R(0));
     for (auto* a : {&b.pressure, &b.energy, &b.power, &b.stiffness, &b.live}) a->assign(n, R(0));
     b.scale.assign(n, R(1));
+    if (b.options.failure.fracture_energy > 0) b.opening.assign(n, R(0));
     b.energy.assign(n, R(b.material.eos->initial_energy()));
     b.state.clear();
     for (const StateInfo& info : b.material.strength->state()) b.state.emplace_back(n, R(info.initial));

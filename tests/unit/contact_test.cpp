@@ -81,6 +81,7 @@ TEST(Contact, ReactionEqualsActionBetweenFluids) {
 TEST(Contact, ReactionEqualsActionAtAWall) {
     for (const bool periodic : {false, true})
         for (const int nz : {1, 2, 8}) {
+            if (!periodic && nz == 1) continue;  // a single layer has no gradient: the guard takes it out
             SolidPart<double> s = plate(12, nz, 0.25, periodic);
             disturb(s, 0.01, 3);
             FluidPart f = disturbed_water({0.125, 6, 16, 2 * nz, -0.7, -1, 0, periodic}, 0.02, 4);
@@ -97,6 +98,7 @@ TEST(Contact, ReactionEqualsActionAtAWall) {
 TEST(Contact, ReactionEqualsActionBetweenSolids) {
     for (const bool periodic : {false, true})
         for (const int nz : {1, 2, 8}) {
+            if (!periodic && nz == 1) continue;
             SolidPart<double> wall = plate(10, nz, 0.25, periodic);
             SolidPart<double> nodes = block(library("copper_ofhc"), {}, Lattice{5, 16, 2 * nz, 0.125, 0.125, false, false, periodic, -0.62, -1, 0});
             disturb(wall, 0.01, 5);
@@ -109,6 +111,18 @@ TEST(Contact, ReactionEqualsActionBetweenSolids) {
             t.add(wall.surface.fx, wall.surface.fy, wall.surface.fz);
             t.expect_none();
         }
+}
+
+TEST(Contact, ATornParticleIsNoWall) {
+    SolidPart<double> s = plate(12, 8, 0.25, false);
+    disturb(s, 0.01, 3);
+    FluidPart f = disturbed_water({0.125, 6, 16, 16, -0.7, -1, 0, false}, 0.02, 4);
+    ASSERT_GT(wall_contact(f.body, s.surface, rough, 0, 0, f.forces).touching, 10);
+    for (const std::int64_t slot : s.surface.slot) s.body.live[static_cast<std::size_t>(slot)] = 0;
+    follow(s.surface, s.body, s.pairs, 0);
+    f.forces.begin(f.body);
+    EXPECT_EQ(wall_contact(f.body, s.surface, rough, 0, 0, f.forces).touching, 0);
+    for (double force : s.surface.fx) EXPECT_EQ(force, 0);
 }
 
 TEST(Contact, ClearanceIsABound) {

@@ -60,6 +60,28 @@ TEST(StrengthField, OneRockIsAlreadyTypical) {
     EXPECT_NEAR(w1, 1, 0.02);
 }
 
+TEST(StrengthField, TheWeakestOfManyPlacesFollowsTheSizeEffect) {
+    // The weakest of n independent places of a Weibull rock has the mean n^(-1/m) (weakest link). Places four correlation lengths apart are
+    // independent to exp(-8). Error of a mean over k rocks: that of the weakest, of the relative width of a single strength, over sqrt(k).
+    constexpr int rocks = 600;
+    const double l = 1.5;
+    for (const double m : {5.0, 10.0}) {
+        const double width = std::sqrt(std::tgamma(1 + 2 / m) / std::pow(std::tgamma(1 + 1 / m), 2) - 1);
+        for (const int side : {1, 2, 3, 5}) {
+            const int n = side * side * side;
+            double mean = 0;
+            for (int rock = 0; rock < rocks; ++rock) {
+                const StrengthField field(m, l, std::uint64_t(rock + 1000 * side), 0);
+                double weakest = 1e300;
+                for (int i = 0; i < n; ++i) weakest = std::min(weakest, field({4 * l * (i % side), 4 * l * (i / side % side), 4 * l * (i / side / side)}));
+                mean += weakest / rocks;
+            }
+            const double law = std::pow(n, -1 / m);
+            EXPECT_NEAR(mean / law, 1, 4 * width / std::sqrt(rocks)) << "m = " << m << ", n = " << n;
+        }
+    }
+}
+
 TEST(StrengthField, CorrelationIsGaussianInEveryDirection) {
     constexpr int n = 6000;
     const double l = 2.5;

@@ -191,6 +191,7 @@ void drift(SolidBody<R>& b, double dt, double kick) {
         for (std::size_t k = 0; k < 3; ++k) store(b.u[k].data() + i, load<V>(b.u[k].data() + i) + step * load<V>(b.v[k].data() + i));
     }, 256);
     fill_images(b.layout, b.u);
+    fill_images(b.layout, b.v);
     if (!b.options.pairwise) return;
     // v_now is renewed only here, since neighbours read it during a kick: v at the t_n that the drift arrives at is v_n+1/2 + dt/2 a_n.
     const R half = static_cast<R>(0.5 * dt), half_kick = static_cast<R>(0.5 * kick), full_kick = static_cast<R>(kick);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pass 1: F from the neighbours' displacements, objective strain increment, equation of state, strength law, T = P K^-1 - a (F - I).
 #include "exec/device.h"
+#include "formulations/total_lagrangian/misfit.h"
 #include "formulations/total_lagrangian/total_lagrangian.h"
+#include "laws/crack_band.h"
+#include "laws/point.h"
 #include "math/eigen.h"
+#include "math/increment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +19,6 @@ namespace {
 template <class V>
 struct Gathered {
     Mat3<V> r{};         // sum w (u_j - u_i) (x) xi
-    V square{};          // sum w |u_j - u_i|^2
     Sym3<V> k_inverse{};
 };
 
@@ -50,7 +53,6 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
             tx += wx * z;
             ty += wy * z;
             tz += wz * z;
-            g.square += wx * dx + wy * dy + wz * dz;
         }
         g.r.xx += sx * pair.dx;
         g.r.xy += sx * pair.dy;
@@ -71,16 +73,16 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
         }
     }
     if constexpr (masked) {
-        // A particle with too few neighbours has no gradient: K^-1 = 0 leaves it F = I and T = 0.
+        // A particle with too few neighbours, or with neighbours in one plane, has no gradient: K^-1 = 0 leaves it F = I and T = 0, and the
+        // guard takes it out. det K/(tr K/3)^3 is 1 inside and at a plane surface, 0.6 at an edge, 0.3 at a corner.
         const V own = load<V>(live);
         const V t = trace(K);
-        const auto good = (own * det(K) > R(2e-3) * t * t * t * R(1.0 / 27.0)) & (t > R(0.1));
+        const auto good = (own * det(K) > R(0.1) * t * t * t * R(1.0 / 27.0)) & (t > R(0.1));
         const V one = broadcast<V>(R(1)), zero{};
         const Sym3<V> safe{good ? K.xx : one, good ? K.yy : one, good ? K.zz : one, good ? K.xy : zero, good ? K.xz : zero, good ? K.yz : zero};
         const V on = good ? one : zero;
         g.k_inverse = scaled(inverse(safe), on);
         g.r = on * g.r;
-        g.square = g.square * on;
     } else {
         const double* k = pairs.k_inverse + 6 * c;
         g.k_inverse = {broadcast<V>(R(k[0])), broadcast<V>(R(k[1])), broadcast<V>(R(k[2])),
@@ -89,11 +91,11 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
     return g;
 }
 
-template <class V, class Arrays> Mat3<V> load_matrix(const Arrays& a, std::int64_t i) {
+template <class V, class Arrays> BRISANCE_INLINE Mat3<V> load_matrix(const Arrays& a, std::int64_t i) {
     return {load<V>(a[0].data() + i), load<V>(a[1].data() + i), load<V>(a[2].data() + i), load<V>(a[3].data() + i), load<V>(a[4].data() + i),
             load<V>(a[5].data() + i), load<V>(a[6].data() + i), load<V>(a[7].data() + i), load<V>(a[8].data() + i)};
 }
-template <class V, class Arrays> void store_matrix(Arrays& a, std::int64_t i, const Mat3<V>& m) {
+template <class V, class Arrays> BRISANCE_INLINE void store_matrix(Arrays& a, std::int64_t i, const Mat3<V>& m) {
     store(a[0].data() + i, m.xx);
     store(a[1].data() + i, m.xy);
     store(a[2].data() + i, m.xz);
@@ -105,40 +107,12 @@ template <class V, class Arrays> void store_matrix(Arrays& a, std::int64_t i, co
     store(a[8].data() + i, m.zz);
 }
 
-template <class V> Mat3<V> plus_identity(Mat3<V> m) {
+template <class V> BRISANCE_INLINE Mat3<V> plus_identity(Mat3<V> m) {
     using R = ScalarOf<V>;
     m.xx += R(1);
     m.yy += R(1);
     m.zz += R(1);
     return m;
-}
-
-/// The strain increment sym(dF F_half^-1) and the rotation of the step, both exact for rigid rotations (Hughes & Winget 1980).
-template <class V>
-struct Increment {
-    Sym3<V> d;
-    Mat3<V> rotation;
-};
-template <class V> Increment<V> increment(const Mat3<V>& f_old, const Mat3<V>& f_new) {
-    using R = ScalarOf<V>;
-    const Mat3<V> half = broadcast<V>(R(0.5)) * (f_old + f_new);
-    const Mat3<V> cof = cofactor(half);
-    const V dh = half.xx * cof.xx + half.xy * cof.xy + half.xz * cof.xz;
-    const V inverse_det = R(1) / ((vabs(dh) > R(1e-6)) ? dh : V{} + R(1e-6));
-    // L = dF half^-1, half^-1 = cof^T/det
-    const Mat3<V> l = inverse_det * ((f_new - f_old) * transpose(cof));
-    Increment<V> out;
-    out.d = {l.xx, l.yy, l.zz, R(0.5) * (l.xy + l.yx), R(0.5) * (l.xz + l.zx), R(0.5) * (l.yz + l.zy)};
-    // Cayley: (I - W/2)^-1 (I + W/2) with the axial vector a of W/2
-    const V ax = R(0.25) * (l.zy - l.yz), ay = R(0.25) * (l.xz - l.zx), az = R(0.25) * (l.yx - l.xy);
-    const V f = R(2) / (R(1) + ax * ax + ay * ay + az * az);
-    out.rotation = {R(1) - f * (ay * ay + az * az), f * (ax * ay - az), f * (ax * az + ay),
-                    f * (ax * ay + az), R(1) - f * (ax * ax + az * az), f * (ay * az - ax),
-                    f * (ax * az - ay), f * (ay * az + ax), R(1) - f * (ax * ax + ay * ay)};
-    return out;
-}
-template <class V> Sym3<V> rotated(const Mat3<V>& q, const Sym3<V>& s) {
-    return symmetric_product(q * s, q);
 }
 
 /// The same sums by single lanes, for a device.
@@ -158,9 +132,13 @@ struct GatherKernel {
     }
 };
 
+template <class V> void set_lane(V& v, int l, ScalarOf<V> x) {
+    std::memcpy(reinterpret_cast<char*>(&v) + static_cast<std::size_t>(l) * sizeof(x), &x, sizeof(x));
+}
+
 /// What one tile adds to the report.
 struct TileReport {
-    double rate = 0, zero_energy = 0, zero_energy_lost = 0, bulk_viscous = 0;
+    double rate = 0, zero_energy_lost = 0, bulk_viscous = 0;
     bool torn = false;
 };
 
@@ -170,7 +148,7 @@ public:
     using V = Pack<R>;
     StressPass(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick)
         : b(body), view_(view(body)), pairs_(view(pairs)), time_(static_cast<float>(time)), dt_(static_cast<R>(dt)), kick_(static_cast<R>(kick)),
-          a0_(static_cast<R>(body.options.zero_energy * body.material.longitudinal_modulus())), n_state_(static_cast<int>(body.state.size())) {}
+          a0_(static_cast<R>(body.options.zero_energy * body.material.longitudinal_modulus())), n_state_(static_cast<int>(body.state.size())), bulk_modulus_(body.material.bulk_modulus()) {}
 
     TileReport operator()(const Tile& tile) const {
         const Gathered<V> g = tile.masked ? gather<V, true>(view_, pairs_, tile.base, tile.column) : gather<V, false>(view_, pairs_, tile.base, tile.column);
@@ -199,28 +177,24 @@ private:
         const V work = ddot(load_matrix<V>(b.T, i), dr) + a_old * ddot(h_old, dr);
         V energy = load<V>(b.energy.data() + i) + R(0.5) * kick_ * (load<V>(b.power.data() + i) + work / dt_);
 
-        // pressure; the energy of t_n+1 closes implicitly, P = a + b E being linear
+        // pressure and strength
         SolidPoint<V> p;
         p.d = step.d;
         p.s = rotated(step.rotation, Sym3<V>{load<V>(b.s[0].data() + i), load<V>(b.s[1].data() + i), load<V>(b.s[2].data() + i),
                                              load<V>(b.s[3].data() + i), load<V>(b.s[4].data() + i), load<V>(b.s[5].data() + i)});
-        p.mu = R(1) / safe_j - R(1);
-        const V expansion = trace(step.d);
-        EosTerms<V> t;
-        alignas(64) R mu[lanes<R>];
-        store(mu, p.mu);
-        b.material.eos->terms(mu, t);
-        const V half_volume = R(0.5) * safe_j * expansion;
-        p.energy = (energy + R(0.5) * safe_j * ddot(p.s, step.d) - half_volume * t.a) / (R(1) + half_volume * t.b);
-        p.pressure = vmax(eos_pressure(t, p.energy), broadcast<V>(static_cast<R>(std::max(b.material.eos->pressure_floor(), -1e6))));
-        const V bulk = vmax(eos_stiffness(t, p.mu, p.energy, p.pressure), zero);
-
-        // strength
         p.dt = broadcast<V>(dt_);
         p.scale = load<V>(b.scale.data() + i);
         for (int k = 0; k < n_state_; ++k) p.state[k] = load<V>(b.state[static_cast<std::size_t>(k)].data() + i);
         const V damage_old = n_state_ > 0 ? p.state[0] : zero;
-        b.material.strength->update_pack(p);
+        const V expansion = trace(step.d);
+        const bool softens = b.options.failure.fracture_energy > 0;
+        V opening{}, lift{};
+        if (softens) {
+            opening = load<V>(b.opening.data() + i);
+            lift = R(bulk_modulus_) * opening;
+        }
+        const V bulk = advance(b.material, p, safe_j, energy, softens ? &lift : nullptr);
+        if (softens) crack(p, column, opening);
         failure(p, tile, column, damage_old);
 
         // bulk viscosity: q = rho l (C_q l e^2 - C_l c e) in compression, e = tr D < 0
@@ -240,7 +214,17 @@ private:
         const Sym3<V> sigma{p.s.xx - total, p.s.yy - total, p.s.zz - total, p.s.xy, p.s.xz, p.s.yz};
         const Mat3<V> pk = (sigma * cof) * g.k_inverse;  // P K^-1, P = J sigma F^-T
         const V k_on = alive ? one : zero;
-        const V a_keep = a0_ * p.integrity * k_on;
+        V a_keep = a0_ * p.integrity * k_on;
+        if (softens) {
+            // What F does not see beside an opening crack is its opening, and no zero-energy mode: the control must not pull it shut. In
+            // tension, beyond a fifth of the strain of failure, it is softened as (strain/misfit)^2, for good, so that its force falls as
+            // the crack opens. Sum w xi xi being the unit tensor, misfit/3 is the square of a strain.
+            const R strain = R(0.2 * b.options.failure.tensile / b.material.longitudinal_modulus());
+            const V limit = broadcast<V>(R(3) * strain * strain);
+            const V unseen = misfit<V>(view_, pairs_, tile, R(0), g.k_inverse);
+            const V soft = ((unseen > limit) & (p.pressure < zero)) ? limit / vmax(unseen, limit) : one;
+            a_keep = vmin(a_keep * soft, a_old);
+        }
         const auto put = [&](int n, V pk_n, V h_n) { store(b.T[static_cast<std::size_t>(n)].data() + i, (alive ? pk_n - a_keep * h_n : zero)); };
         put(0, pk.xx, h_new.xx);
         put(1, pk.xy, h_new.xy);
@@ -261,6 +245,7 @@ private:
         keep(b.s[4], p.s.xz);
         keep(b.s[5], p.s.yz);
         keep(b.pressure, p.pressure);
+        if (softens) keep(b.opening, opening);
         keep(b.energy, energy);
         store(b.power.data() + i, alive ? ddot(pk, dr) / dt_ : zero);
         store(b.stiffness.data() + i, a_keep);
@@ -270,9 +255,9 @@ private:
         // sums of the tile: only lanes that are particles
         const V own = owned(i) * k_on;
         const double volume = b.volume(column);
-        const V misfit = vmax(g.square - ddot(h_new, g.r), zero);  // sum w |x_ij - F xi|^2
-        report.zero_energy = 0.5 * volume * static_cast<double>(hsum(own * a_keep * misfit));
-        report.zero_energy_lost = 0.5 * volume * static_cast<double>(hsum(own * vmax(a_old - a_keep, zero) * misfit));
+        const V softened = own * vmax(a_old - a_keep, zero);
+        if (hmax(softened) > R(0))
+            report.zero_energy_lost = 0.5 * volume * static_cast<double>(hsum(softened * misfit<V>(view_, pairs_, tile, dt_, g.k_inverse)));
         report.bulk_viscous = volume * static_cast<double>(hsum(-own * q * safe_j * expansion));
 
         // stable step: the least stretch lambda_min from B = F^-1 F^-T
@@ -288,9 +273,10 @@ private:
         const V rate = bears ? own_rate : zero;
         const R at_rest = static_cast<R>(b.material.sound_speed()) / spacing;
 
-        // The guard: what has no meaning as a deformation any more, and failed particles so distorted that they alone would hold the step.
+        // The guard: what has no meaning as a deformation any more, what has given away more energy than matter holds at room temperature
+        // (copper: 0.7 % of its bulk modulus), and failed particles so distorted that they alone would hold the step.
         const V size = ddot(f_new, f_new);
-        const auto ok = (jacobian > R(0.4)) & (jacobian < R(8)) & (size < R(40)) & (vabs(energy) < R(1e6)) &
+        const auto ok = (trace(g.k_inverse) > R(0)) & (jacobian > R(0.4)) & (jacobian < R(8)) & (size < R(40)) & (energy > R(-0.02 * bulk_modulus_)) & (energy < R(1e6)) &
                         ((p.integrity > R(0.5)) | (rate < R(3) * at_rest));
         const V bad = alive ? (ok ? zero : one) : zero;
         report.rate = static_cast<double>(hmax(own * (one - bad) * rate));
@@ -308,6 +294,30 @@ private:
         else
             for (int l = 0; l < lanes<R>; ++l) v[l] = R(b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own);
         return v;
+    }
+
+    /// Cracks of a given fracture energy, lane by lane: few lanes have any.
+    void crack(SolidPoint<V>& p, const Column& column, V& opening) const {
+        const FailureRule& rule = b.options.failure;
+        const R strength = static_cast<R>(rule.tensile);
+        const V bound = R(2.0 / 3.0) * mises(p.s) - p.pressure;  // no principal stress is larger
+        const auto busy = (bound > strength * p.scale * (broadcast<V>(R(1)) - p.state[0])) | ((opening > V{}) & (p.pressure > V{}));
+        const V any = busy ? broadcast<V>(R(1)) : V{};
+        if (!(hmax(any) > R(0))) return;
+        const double width = crack_band_spacings * std::cbrt(b.volume(column)), k = bulk_modulus_, g = b.material.strength->shear_modulus();
+        for (int l = 0; l < lanes<R>; ++l) {
+            if (lane(any, l) == R(0)) continue;
+            const double place = rule.tensile * static_cast<double>(lane(p.scale, l));
+            Sym3<double> s;
+            for (std::size_t c = 0; c < 6; ++c) component(s, c) = static_cast<double>(lane(component(p.s, c), l));
+            double pressure = static_cast<double>(lane(p.pressure, l)), damage = static_cast<double>(lane(p.state[0], l)), open = static_cast<double>(lane(opening, l));
+            open_crack({place, full_strain(rule.fracture_energy, place, width, 9 * k * g / (3 * k + g)), k, g}, s, pressure, damage, open);
+            for (std::size_t c = 0; c < 6; ++c) set_lane(component(p.s, c), l, R(component(s, c)));
+            set_lane(p.pressure, l, R(pressure));
+            set_lane(p.state[0], l, R(damage));
+            set_lane(opening, l, R(open));
+            set_lane(p.integrity, l, R(std::min(static_cast<double>(lane(p.integrity, l)), 1 - damage)));
+        }
     }
 
     /// Failure beside the law's own, and what is noted for analysis.
@@ -334,7 +344,7 @@ private:
             const V one_now = s.one - p.pressure, tau_now = R(0.5) * (s.one - s.three);
             store_float(b.sigma_1.data() + i, whole * vmax(seen_1, one_now) + (one - whole) * seen_1);
             store_float(b.tau_max.data() + i, whole * vmax(seen_tau, tau_now) + (one - whole) * seen_tau);
-            if (rule.tensile > 0) p.state[0] = (one_now > R(rule.tensile) * p.scale) ? one : p.state[0];
+            if (rule.tensile > 0 && rule.fracture_energy <= 0) p.state[0] = (one_now > R(rule.tensile) * p.scale) ? one : p.state[0];
             if (rule.shear > 0) p.state[0] = (tau_now > R(rule.shear) * p.scale) ? one : p.state[0];
         }
         if (rule.mode > 0) {
@@ -359,6 +369,7 @@ private:
     float time_;
     R dt_, kick_, a0_;
     int n_state_;
+    double bulk_modulus_;
 };
 
 /// Takes the newly torn particles out of the sums: their neighbours' tiles become masked and get their R_sum afresh, so that the
@@ -413,8 +424,8 @@ StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time
         const TileReport& r = reports[t];
         if (r.rate > out.rate) {
             out.rate = r.rate;
+            out.fastest = body.layout.tiles[t].base;
         }
-        out.zero_energy += r.zero_energy;
         out.zero_energy_lost += r.zero_energy_lost;
         out.bulk_viscous += r.bulk_viscous;
         torn = torn || r.torn;
@@ -426,6 +437,24 @@ StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time
     return out;
 }
 
+template <class R>
+double control_energy(const SolidBody<R>& b, const ColumnPairs<R>& pairs, double dt) {
+    using V = Pack<R>;
+    const SolidView<R> body = view(b);
+    const PairsView<R> bonds = view(pairs);
+    return exec::sum(static_cast<std::int64_t>(b.layout.tiles.size()), 0.0, [&](std::int64_t t) {
+        const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
+        const Sym3<V> k_inverse = (tile.masked ? gather<V, true>(body, bonds, tile.base, tile.column) : gather<V, false>(body, bonds, tile.base, tile.column)).k_inverse;
+        const V stored = load<V>(b.stiffness.data() + tile.base) * misfit<V>(body, bonds, tile, static_cast<R>(dt), k_inverse);
+        double sum = 0;
+        for (int l = 0; l < lanes<R>; ++l)
+            if (b.layout.flags[static_cast<std::size_t>(tile.base + l)] & slot_own) sum += static_cast<double>(lane(stored, l));
+        return 0.5 * b.volume(b.layout.columns[static_cast<std::size_t>(tile.column)]) * sum;
+    });
+}
+
+template double control_energy(const SolidBody<double>&, const ColumnPairs<double>&, double);
+template double control_energy(const SolidBody<float>&, const ColumnPairs<float>&, double);
 template StressReport stress(SolidBody<double>&, const ColumnPairs<double>&, double, double, double);
 template StressReport stress(SolidBody<float>&, const ColumnPairs<float>&, double, double, double);
 

@@ -19,10 +19,10 @@ namespace brisance {
 /// What a stress pass reports.
 struct StressReport {
     double rate = 0;             ///< 1/us; the largest c/(spacing stretch): the step must stay below courant * tau / rate
-    double zero_energy = 0;      ///< J, stored by the control
     double zero_energy_lost = 0; ///< J, set free this step where damage softened the control
     double bulk_viscous = 0;     ///< J, part of the internal energy made by bulk viscosity this step
     std::int64_t torn = 0;       ///< particles taken out this step
+    std::int64_t fastest = -1;   ///< first slot of the tile with that rate, for messages
 };
 
 /// Pass 1: deformation, law, stress at t_n+1. `dt` is the drift that led here, `kick` the mean of that drift and the one before:
@@ -40,12 +40,19 @@ double kick(SolidBody<R>& body, const ColumnPairs<R>& pairs, double kick);
 template <class R>
 void drift(SolidBody<R>& body, double dt, double kick);
 
+/// The energy that the zero-energy control has stored, J, after a drift of `dt`: sum V a/2 sum w e_n.e_n-1 with e = x_ij - F xi_ij. This
+/// product, and not e_n^2, is what leapfrog exchanges with the kinetic energy of v_n-1/2: for a linear force and equal steps the sum of
+/// the two stays to round-off. With dt = 0 it is the potential at rest.
+template <class R>
+double control_energy(const SolidBody<R>& body, const ColumnPairs<R>& pairs, double dt);
+
 /// Of v as it stands.
 template <class R>
 BodySums sums(const SolidBody<R>& body);
 
-/// The stable step of the stencil is tau spacing/c. Measured (tests/unit/total_lagrangian_test.cpp): 2.31 inside a cubic lattice with
-/// h = 1.3 spacings and a zero-energy stiffness of 0.05, but 1.405 at the free corners of a block: keep the Courant factor below 0.73.
-inline constexpr double stencil_tau = 1.9;
+/// The stable step of the stencil is tau spacing/c, with h in spacings and the stiffness a of the control over the longitudinal modulus
+/// (up to 1). A fit from below to free corners and edges, where K^-1 is largest; inside a body the limit is up to 1.7 times as long
+/// (tests/unit/total_lagrangian_test.cpp, StableStepOfBodiesWithWalls).
+inline double stencil_tau(double smoothing, double zero_energy) { return 1.08 * smoothing - 0.27 * zero_energy; }
 
 }  // namespace brisance

@@ -9,10 +9,6 @@
 
 namespace brisance {
 
-namespace {
-alignas(64) constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-}
-
 void light(FluidBody& b, const std::vector<Detonator>& detonators) {
     for (std::size_t i = 0; i < b.lit.size(); ++i) {
         b.lit[i] = 1e300;
@@ -77,7 +73,7 @@ void FluidSolver::state(FluidBody& b, double time) {
             b.pressure[i] = pressure;
             b.sound[i] = sound;
             b.peak_pressure[i] = std::max(b.peak_pressure[i], pressure);
-            b.h[i] = h0 * std::clamp(std::cbrt(rho0 / b.rho_now[i]), b.options.h_min, b.options.h_max);
+            b.h[i] = h0 * std::clamp(std::cbrt((b.rho_start.empty() ? rho0 : b.rho_start[i]) / b.rho_now[i]), b.options.h_min, b.options.h_max);
         }
     });
 }
@@ -95,71 +91,100 @@ static Sym3<double> correction(const Sym3<double>& m) {
     return {(1 + e2) * c.xx, (1 + e2) * c.yy, (1 + e2) * c.zz, (1 + e2) * c.xy, (1 + e2) * c.xz, (1 + e2) * c.yz};
 }
 
+namespace {
+
+/// Particle i and a pack of its neighbours: grad_i W = -weight d.
 template <class V>
-FluidSolver::Pairs<V> FluidSolver::pairs(double x, double y, double z, double h, std::int64_t q, std::int64_t last) const {
-    const auto j = static_cast<std::size_t>(q);
+struct Pairs {
+    Vec3<V> d, v;          ///< x_i - x_j, v_i - v_j
+    V h, r2, u;            ///< mean h, |d|^2, |d|/h
+    V volume, weight;      ///< of j; -W'/r
+};
+
+/// `me` and `records`: x y z h, m/rho, v of the particle and of all entries.
+template <class V>
+BRISANCE_INLINE Pairs<V> pairs(const double* me, const double* records, const std::int32_t* list) {
+    V r[8];
+    load_records<V>(records, list, r);
     Pairs<V> p;
-    p.d = {x - load<V>(&sx_[j]), y - load<V>(&sy_[j]), z - load<V>(&sz_[j])};
-    p.h = 0.5 * (h + load<V>(&sh_[j]));
+    p.d = {me[0] - r[0], me[1] - r[1], me[2] - r[2]};
+    p.v = {me[5] - r[5], me[6] - r[6], me[7] - r[7]};
+    p.h = 0.5 * (me[3] + r[3]);
+    p.volume = r[4];
     p.r2 = dot(p.d, p.d);
-    const V number = static_cast<double>(q) + load<V>(lane_number);
-    const auto in = (p.r2 < 4.0 * p.h * p.h) & (number < static_cast<double>(last)) & (p.r2 > 1e-24);
-    p.on = in ? broadcast<V>(1.0) : V{};
     const V inverse_h = 1.0 / p.h, h2 = inverse_h * inverse_h;
     p.u = vmin(vsqrt(p.r2) * inverse_h, broadcast<V>(2.0));
     p.weight = kernel::sigma_3d * h2 * h2 * inverse_h * kernel::bond(p.u);
     return p;
 }
 
-void FluidSolver::responses(FluidBody& b, double h_max) {
+}  // namespace
+
+void FluidSolver::reflect(const FluidBody& b, double reach) {
+    place_ = b.x;
+    const std::size_t n = b.mass.size();
+    of_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) of_[i] = static_cast<std::int32_t>(i);
+    for (auto& s : sign_) s.assign(n, 1.0);
+    for (const Mirror& m : b.mirrors) {  // one after the other, so that corners are filled by images of images
+        const auto axis = static_cast<std::size_t>(m.axis);
+        const std::size_t standing = of_.size();
+        for (std::size_t i = 0; i < standing; ++i) {
+            if (std::abs(place_[axis][i] - m.at) > reach) continue;
+            for (std::size_t a = 0; a < 3; ++a) {
+                place_[a].push_back(a == axis ? 2 * m.at - place_[a][i] : place_[a][i]);
+                sign_[a].push_back(a == axis ? -sign_[a][i] : sign_[a][i]);
+            }
+            of_.push_back(of_[i]);
+        }
+    }
+}
+
+void FluidSolver::responses(FluidBody& b) {
     using V = Pack<double>;
-    constexpr int width = lanes<double>;
     const std::int64_t entries = grid_.entries();
-    correction_.resize(static_cast<std::size_t>(b.size()));
     q_.resize(static_cast<std::size_t>(b.size()));
     exec::for_each(entries, [&](std::int64_t k) {
-        if (grid_.image(k)) return;
-        const auto s = static_cast<std::size_t>(k);
-        const auto i = static_cast<std::size_t>(grid_.index(k));
-        const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], h = sh_[s];
+        if (image(k)) return;
+        const std::size_t i = particle(k);
+        const double* me = &motion_[8 * static_cast<std::size_t>(k)];
         Sym3<V> m;
         Mat3<V> g;
-        grid_.ranges(x, y, z, std::min(2 * h_max, h + h_max), [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t q = first; q < last; q += width) {
-                const Pairs<V> p = pairs<V>(x, y, z, h, q, last);
-                if (!(hmax(p.on) > 0)) continue;
-                const auto j = static_cast<std::size_t>(q);
-                const Vec3<V> w = (p.on * load<V>(&sm_[j]) / load<V>(&srho_[j]) * p.weight) * p.d;
-                const V ux = vx - load<V>(&svx_[j]), uy = vy - load<V>(&svy_[j]), uz = vz - load<V>(&svz_[j]);
-                m.xx += w.x * p.d.x;
-                m.yy += w.y * p.d.y;
-                m.zz += w.z * p.d.z;
-                m.xy += w.x * p.d.y;
-                m.xz += w.x * p.d.z;
-                m.yz += w.y * p.d.z;
-                g.xx += w.x * ux;
-                g.xy += w.x * uy;
-                g.xz += w.x * uz;
-                g.yx += w.y * ux;
-                g.yy += w.y * uy;
-                g.yz += w.y * uz;
-                g.zx += w.z * ux;
-                g.zy += w.z * uy;
-                g.zz += w.z * uz;
-            }
+        neighbours_.packs(k, [&](const std::int32_t* list) {
+            const Pairs<V> p = pairs<V>(me, motion_.data(), list);
+            const Vec3<V> w = (p.volume * p.weight) * p.d;
+            m.xx += w.x * p.d.x;
+            m.yy += w.y * p.d.y;
+            m.zz += w.z * p.d.z;
+            m.xy += w.x * p.d.y;
+            m.xz += w.x * p.d.z;
+            m.yz += w.y * p.d.z;
+            g.xx += w.x * p.v.x;
+            g.xy += w.x * p.v.y;
+            g.xz += w.x * p.v.z;
+            g.yx += w.y * p.v.x;
+            g.yy += w.y * p.v.y;
+            g.yz += w.y * p.v.z;
+            g.zx += w.z * p.v.x;
+            g.zy += w.z * p.v.y;
+            g.zz += w.z * p.v.z;
         });
         const Sym3<double> l = correction({hsum(m.xx), hsum(m.yy), hsum(m.zz), hsum(m.xy), hsum(m.xz), hsum(m.yz)});
-        const double divergence = l.xx * hsum(g.xx) + l.yy * hsum(g.yy) + l.zz * hsum(g.zz) + l.xy * (hsum(g.xy) + hsum(g.yx)) +
-                                  l.xz * (hsum(g.xz) + hsum(g.zx)) + l.yz * (hsum(g.yz) + hsum(g.zy));
-        const double closing = -std::min(divergence, 0.0) * h;
+        const double divergence = l.xx * hsum(g.xx) + l.yy * hsum(g.yy) + l.zz * hsum(g.zz) + l.xy * hsum(g.xy + g.yx) + l.xz * hsum(g.xz + g.zx) +
+                                  l.yz * hsum(g.yz + g.zy);
+        const double closing = -std::min(divergence, 0.0) * me[3];
         correction_[i] = l;
         b.rho_rate[i] = -divergence;
         q_[i] = b.rho_now[i] * closing * (b.options.quadratic * closing + b.options.linear * b.sound[i]);
     });
-    for (auto& a : stress_) a.assign(static_cast<std::size_t>(entries + width), 0);
     exec::for_each(entries, [&](std::int64_t k) {
-        const auto i = static_cast<std::size_t>(grid_.index(k));
-        for (std::size_t a = 0; a < 6; ++a) stress_[a][static_cast<std::size_t>(k)] = (b.pressure[i] + q_[i]) * component(correction_[i], a);
+        const std::size_t i = particle(k);
+        const double x = sign(k, 0), y = sign(k, 1), z = sign(k, 2);
+        const double turn[6] = {1, 1, 1, x * y, x * z, y * z};
+        double* r = &response_[8 * static_cast<std::size_t>(k)];
+        r[0] = b.rho_now[i];
+        r[1] = b.sound[i];
+        for (std::size_t a = 0; a < 6; ++a) r[2 + a] = turn[a] * (b.pressure[i] + q_[i]) * component(correction_[i], a);
     }, 1024);
 }
 
@@ -169,36 +194,41 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     const std::int64_t n = b.size();
     double h_max = 0;
     for (double h : b.h) h_max = std::max(h_max, h);
-    // Cells of the mean support's half: few candidates per particle, whatever the largest h is.
-    grid_.build(b.x[0].data(), b.x[1].data(), b.x[2].data(), n, std::max(0.7 * h_max, 1e-9), 2 * h_max, b.z_low, b.period);
+    // Cells of half the largest support: few candidates per particle, and not many cells to look into.
+    reflect(b, 2 * h_max);
+    grid_.build(place_[0].data(), place_[1].data(), place_[2].data(), static_cast<std::int64_t>(of_.size()), std::max(h_max, 1e-9), 2 * h_max, b.z_low, b.period);
     const std::int64_t entries = grid_.entries();
     const auto padded = static_cast<std::size_t>(entries + width);
-    for (auto* a : {&sx_, &sy_, &sz_, &svx_, &svy_, &svz_, &sm_, &srho_, &sc_, &sh_, &sr_}) a->resize(padded);
-    // most fluids bear no tension: then there is nothing to resist
-    const bool tension = b.options.artificial_stress && std::any_of(b.pressure.begin(), b.pressure.end(), [](double p) { return p < 0; });
+    for (auto* a : {&sx_, &sy_, &sz_, &sh_}) a->resize(padded);
+    for (auto* a : {&motion_, &response_}) a->resize(8 * padded);
     exec::for_each(entries, [&](std::int64_t k) {
-        const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
-        sx_[s] = b.x[0][i];
-        sy_[s] = b.x[1][i];
-        sz_[s] = b.x[2][i] + grid_.shift(k);
-        svx_[s] = b.v_now[0][i];
-        svy_[s] = b.v_now[1][i];
-        svz_[s] = b.v_now[2][i];
-        sm_[s] = b.mass[i];
-        srho_[s] = b.rho_now[i];
-        sr_[s] = tension && b.pressure[i] < 0 ? b.options.epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0;  // -eps sigma/rho^2
-        sc_[s] = b.sound[i];
+        const auto s = static_cast<std::size_t>(k), e = static_cast<std::size_t>(grid_.index(k)), i = particle(k);
+        sx_[s] = place_[0][e];
+        sy_[s] = place_[1][e];
+        sz_[s] = place_[2][e] + grid_.shift(k);
         sh_[s] = b.h[i];
+        const double record[8] = {sx_[s], sy_[s], sz_[s], sh_[s], b.mass[i] / b.rho_now[i], sign(k, 0) * b.v_now[0][i], sign(k, 1) * b.v_now[1][i], sign(k, 2) * b.v_now[2][i]};
+        std::copy(record, record + 8, &motion_[8 * s]);
     }, 1024);
-    for (std::size_t s = static_cast<std::size_t>(entries); s < padded; ++s) {
-        sx_[s] = 1e150;  // out of everybody's reach
-        sm_[s] = 0;
-        srho_[s] = sh_[s] = sc_[s] = 1;
-        sy_[s] = sz_[s] = svx_[s] = svy_[s] = svz_[s] = sr_[s] = 0;
+    for (std::size_t s = static_cast<std::size_t>(entries); s < padded; ++s) {  // out of everybody's reach, and nothing there
+        constexpr double far = 1e50, nothing[8] = {far, 0, 0, 1, 0, 0, 0, 0}, unit[8] = {1, 1, 0, 0, 0, 0, 0, 0};
+        sx_[s] = far;
+        sy_[s] = sz_[s] = 0;
+        sh_[s] = 1;
+        std::copy(nothing, nothing + 8, &motion_[8 * s]);
+        std::copy(unit, unit + 8, &response_[8 * s]);
     }
     mu_.resize(static_cast<std::size_t>(n));
-    responses(b, h_max);
+    correction_.resize(static_cast<std::size_t>(n));
+    neighbours_.build(grid_, sx_.data(), sy_.data(), sz_.data(), sh_.data(), h_max, [&](std::int64_t k) { return !image(k); });
+    responses(b);
 
+    // most fluids bear no tension: then there is nothing to resist
+    const bool tension = b.options.artificial_stress && std::any_of(b.pressure.begin(), b.pressure.end(), [](double p) { return p < 0; });
+    const auto resistance = [&](std::int64_t k) {  // -eps sigma/rho^2
+        const std::size_t i = particle(k);
+        return b.pressure[i] < 0 ? b.options.epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0.0;
+    };
     const double alpha = b.options.alpha, beta = b.options.beta;
     struct Acc {
         Powers p;
@@ -209,43 +239,37 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         }
     };
     const Acc total = exec::sum(entries, Acc{}, [&](std::int64_t k) {
-        if (grid_.image(k)) return Acc{};
-        const auto s = static_cast<std::size_t>(k), i = static_cast<std::size_t>(grid_.index(k));
-        const double x = sx_[s], y = sy_[s], z = sz_[s], vx = svx_[s], vy = svy_[s], vz = svz_[s], rho = srho_[s], c = sc_[s], h = sh_[s],
-                     r_i = sr_[s];
-        Sym3<V> p_i;
-        for (std::size_t a = 0; a < 6; ++a) component(p_i, a) = broadcast<V>(stress_[a][s]);
+        if (image(k)) return Acc{};
+        const std::size_t i = particle(k);
+        const double *me = &motion_[8 * static_cast<std::size_t>(k)], *mine = &response_[8 * static_cast<std::size_t>(k)];
+        const double rho = mine[0], c = mine[1], r_i = tension ? resistance(k) : 0.0;
         V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{};
-        grid_.ranges(x, y, z, std::min(2 * h_max, h + h_max), [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t q = first; q < last; q += width) {
-                const auto j = static_cast<std::size_t>(q);
-                const Pairs<V> p = pairs<V>(x, y, z, h, q, last);
-                if (!(hmax(p.on) > 0)) continue;
-                const V mj = p.on * load<V>(&sm_[j]), rj = load<V>(&srho_[j]);
-                const Vec3<V> v{vx - load<V>(&svx_[j]), vy - load<V>(&svy_[j]), vz - load<V>(&svz_[j])};
-                const V vr = dot(v, p.d);
-                const V mu = vmin(p.h * vr / (p.r2 + 0.01 * p.h * p.h), V{});
-                const V cm = 0.5 * (c + load<V>(&sc_[j]));
-                const V pi = 2.0 * mu * (beta * mu - alpha * cm) / (rho + rj);
-                V bracket = pi;
-                if (tension) {
-                    const V w = kernel::shape(p.u), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
-                    const V extra = -(r_i + load<V>(&sr_[j])) * power(w / vmax(w0, broadcast<V>(1e-6)), b.options.n);
-                    bracket += extra;
-                    artificial -= 0.5 * mj * extra * p.weight * vr;
-                }
-                Sym3<V> p_sum = p_i;
-                for (std::size_t a = 0; a < 6; ++a) component(p_sum, a) += load<V>(&stress_[a][j]);
-                const V volume = mj / rj * p.weight, along = mj * p.weight * bracket * rho;
-                const Vec3<V> push = p_sum * p.d;
-                ax += volume * push.x + along * p.d.x;
-                ay += volume * push.y + along * p.d.y;
-                az += volume * push.z + along * p.d.z;
-                const V wv = mj * p.weight * vr;
-                heat -= 0.5 * bracket * wv;
-                viscous -= 0.5 * pi * wv;
-                mu_largest = vmax(mu_largest, p.on * (-mu));
+        neighbours_.packs(k, [&](const std::int32_t* list) {
+            const Pairs<V> p = pairs<V>(me, motion_.data(), list);
+            V other[8];  // rho, c, (P + q) L
+            load_records<V>(response_.data(), list, other);
+            const V vr = dot(p.v, p.d), mj = p.volume * other[0];
+            const V mu = vmin(p.h * vr / (p.r2 + 0.01 * p.h * p.h), V{});
+            const V pi = 2.0 * mu * (beta * mu - alpha * (0.5 * (c + other[1]))) / (rho + other[0]);
+            V bracket = pi;
+            if (tension) {
+                alignas(64) double r_j[width];
+                for (int l = 0; l < width; ++l) r_j[l] = list[l] < entries ? resistance(list[l]) : 0.0;
+                const V w = kernel::shape(p.u), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
+                const V extra = -(r_i + load<V>(r_j)) * power(w / vmax(w0, broadcast<V>(1e-6)), b.options.n);
+                bracket += extra;
+                artificial -= 0.5 * mj * extra * p.weight * vr;
             }
+            const Sym3<V> p_sum{mine[2] + other[2], mine[3] + other[3], mine[4] + other[4], mine[5] + other[5], mine[6] + other[6], mine[7] + other[7]};
+            const V volume = p.volume * p.weight, along = mj * p.weight * bracket * rho;
+            const Vec3<V> push = p_sum * p.d;
+            ax += volume * push.x + along * p.d.x;
+            ay += volume * push.y + along * p.d.y;
+            az += volume * push.z + along * p.d.z;
+            const V wv = mj * p.weight * vr;
+            heat -= 0.5 * bracket * wv;
+            viscous -= 0.5 * pi * wv;
+            mu_largest = vmax(mu_largest, -mu);
         });
         b.acceleration[0][i] = hsum(ax) / rho;
         b.acceleration[1][i] = hsum(ay) / rho;
@@ -295,15 +319,16 @@ void FluidSolver::drift(FluidBody& b, double dt) {
 }
 
 double FluidSolver::stable_rate(const FluidBody& b) const {
-    return exec::max(b.size(), 0.0, [&](std::int64_t k) {
-        const auto i = static_cast<std::size_t>(k);
-        const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
-                                   b.acceleration[2][i] * b.acceleration[2][i]);
-        const FluidOptions& o = b.options;
-        const double closing = std::max(b.rho_rate[i], 0.0) * b.h[i];
-        return std::max((b.sound[i] * (1 + 0.6 * o.alpha + 1.2 * o.linear) + 0.6 * o.beta * mu_[i] + 1.2 * o.quadratic * closing) / b.h[i],
-                        std::sqrt(a / b.h[i]));
-    });
+    return exec::max(b.size(), 0.0, [&](std::int64_t k) { return stable_rate(b, static_cast<std::size_t>(k)); });
+}
+
+double FluidSolver::stable_rate(const FluidBody& b, std::size_t i) const {
+    const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
+                               b.acceleration[2][i] * b.acceleration[2][i]);
+    const FluidOptions& o = b.options;
+    const double closing = std::max(b.rho_rate[i], 0.0) * b.h[i];
+    return std::max((b.sound[i] * (1 + 0.6 * o.alpha + 1.2 * o.linear) + 0.6 * o.beta * mu_[i] + 1.2 * o.quadratic * closing) / b.h[i],
+                    std::sqrt(a / b.h[i]));
 }
 
 BodySums FluidSolver::sums(const FluidBody& b) const {

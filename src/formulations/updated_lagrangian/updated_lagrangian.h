@@ -14,7 +14,7 @@
 // (docs/theory/fluids.md).
 #pragma once
 
-#include "neighbours/cell_grid.h"
+#include "neighbours/neighbour_lists.h"
 #include "particles/body_sums.h"
 #include "particles/fluid_body.h"
 
@@ -36,23 +36,31 @@ public:
     void drift(FluidBody& body, double dt);
     /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us.
     double stable_rate(const FluidBody& body) const;
+    /// The same of one particle.
+    double stable_rate(const FluidBody& body, std::size_t i) const;
     BodySums sums(const FluidBody& body) const;
 
 private:
     CellGrid grid_;
-    /// Particle i, at (x, y, z) with h, and the entries from q on, as many as a pack holds: grad_i W = -weight d.
-    template <class V> struct Pairs {
-        Vec3<V> d;        ///< x_i - x_j
-        V h, r2, u;       ///< mean h, |d|^2, |d|/h
-        V weight, on;     ///< on: 1 for a neighbour before `last`, else 0
-    };
-    template <class V> Pairs<V> pairs(double x, double y, double z, double h, std::int64_t q, std::int64_t last) const;
     /// First pass: L, the divergence, and with it d rho/dt and q; then (P + q) L of every entry.
-    void responses(FluidBody& body, double h_max);
+    void responses(FluidBody& body);
 
-    // sorted copies of what neighbours need
-    Array<double> sx_, sy_, sz_, svx_, svy_, svz_, sm_, srho_, sc_, sh_, sr_;
-    std::array<Array<double>, 6> stress_;   ///< (P + q) L
+    /// Places of the particles and, behind them, of their images in the mirrors, as far as `reach` beyond each plane.
+    void reflect(const FluidBody& body, double reach);
+    /// Whether an entry of the grid stands for another particle: beyond the period, or beyond a mirror.
+    bool image(std::int64_t k) const { return grid_.image(k) || static_cast<std::size_t>(grid_.index(k)) >= correction_.size(); }
+    /// The particle that an entry stands for.
+    std::size_t particle(std::int64_t k) const { return static_cast<std::size_t>(of_[static_cast<std::size_t>(grid_.index(k))]); }
+    /// Signs of a vector's components at an entry: -1 across a mirror.
+    double sign(std::int64_t k, std::size_t axis) const { return sign_[axis][static_cast<std::size_t>(grid_.index(k))]; }
+
+    std::array<Array<double>, 3> place_, sign_;
+    std::vector<std::int32_t> of_;
+
+    NeighbourLists neighbours_;
+    Array<double> sx_, sy_, sz_, sh_;  ///< of the grid's entries
+    Array<double> motion_;    ///< records of the entries: x y z h, m/rho, v
+    Array<double> response_;  ///< and: rho, c, (P + q) L
     std::vector<Sym3<double>> correction_;  ///< L
     Array<double> mu_;  ///< largest |mu| of each particle
     Array<double> q_;   ///< bulk viscosity of each particle, GPa
