@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/assembly.h"
 
+#include "app/crack_band.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "geometry/placement.h"
@@ -60,6 +61,14 @@ PlacementOptions placement_options(const Case& c, const PartData& p, const Exten
     return o;
 }
 
+Point initial_velocity(const PartData& p, Point at) {
+    if (p.velocity_field.empty()) return p.velocity;
+    const Point v = p.velocity + Point{p.velocity_field[0](at.x, at.y, at.z), p.velocity_field[1](at.x, at.y, at.z), p.velocity_field[2](at.x, at.y, at.z)};
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        throw InputError(fmt::format("{}: initial.velocity of part {}: it is no finite number at ({:g}, {:g}, {:g}) mm", p.where, p.name, at.x, at.y, at.z));
+    return v;
+}
+
 template <class R>
 SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& placement, const Extent& extent) {
     SolidPart<R> s;
@@ -80,6 +89,7 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
     f.mode = static_cast<int>(p.failure.mode);
     f.tensile = p.failure.tensile_strength.value_or(0);
     f.shear = p.failure.shear_strength.value_or(0);
+    f.fracture_energy = p.failure.fracture_energy.value_or(0);
     f.notice = 0.3 * c.analysis.tensile_strength;
     f.threshold = c.analysis.damage_threshold;
     b.axis_x = c.analysis.axis.x;
@@ -108,11 +118,13 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
         for (int k = 0; k < column.layers; ++k) {
             const auto i = static_cast<std::size_t>(column.start + k);
             if (p.heterogeneity.weibull_modulus > 0) b.scale[i] = static_cast<R>(field({column.x, column.y, column.z0 + k * b.layout.dz}));
-            b.v[0][i] = static_cast<R>(p.velocity.x);
-            b.v[1][i] = static_cast<R>(p.velocity.y);
-            b.v[2][i] = static_cast<R>(p.velocity.z);
+            const Point v = initial_velocity(p, {column.x, column.y, column.z0 + k * b.layout.dz});
+            b.v[0][i] = static_cast<R>(v.x);
+            b.v[1][i] = static_cast<R>(v.y);
+            b.v[2][i] = static_cast<R>(v.z);
         }
     });
+    if (p.failure.fracture_energy) check_crack_band(b, p.failure);
     s.surface = make_surface(b);
     return s;
 }
@@ -139,14 +151,14 @@ FluidPart make_fluid(const Case& c, const PartData& p, const Placement& placemen
 
     const std::vector<ShapePtr> later = later_shapes(c, p);
     std::vector<Point> at;
-    std::vector<double> mass;
+    std::vector<double> volume;
     for (const Column& column : placement.columns)
         for (int k = 0; k < column.layers; ++k) {
             const Point place{column.x, column.y, placement.z_low + (k + 0.5) * placement.dz};
             if (!extent.periodic && (!p.shape->contains(place) || std::any_of(later.begin(), later.end(), [&](const ShapePtr& l) { return l->contains(place); })))
                 continue;
             at.push_back({column.x, column.y, column.z0 + k * placement.dz});
-            mass.push_back(b.material.density * column.area * placement.dz);
+            volume.push_back(column.area * placement.dz);
         }
     resize(b, at.size());
     const double e0 = b.material.eos->initial_energy() / b.material.density;
@@ -154,13 +166,18 @@ FluidPart make_fluid(const Case& c, const PartData& p, const Placement& placemen
         b.x[0][i] = b.reference[0][i] = at[i].x;
         b.x[1][i] = b.reference[1][i] = at[i].y;
         b.x[2][i] = b.reference[2][i] = at[i].z;
-        b.mass[i] = mass[i];
-        b.rho[i] = b.material.density;
-        b.e[i] = e0;
-        b.v[0][i] = p.velocity.x;
-        b.v[1][i] = p.velocity.y;
-        b.v[2][i] = p.velocity.z;
+        b.rho[i] = p.density_field ? (*p.density_field)(at[i].x, at[i].y, at[i].z) : b.material.density;
+        b.mass[i] = b.rho[i] * volume[i];
+        b.e[i] = p.energy_field ? (*p.energy_field)(at[i].x, at[i].y, at[i].z) : e0;
+        if (!(b.rho[i] > 0) || !std::isfinite(b.rho[i]) || !std::isfinite(b.e[i]))
+            throw InputError(fmt::format("{}: initial fields of part {}: at ({:g}, {:g}, {:g}) mm the density is {:g} g/cm3 and the energy {:g} kJ/g; allowed are a density above 0 and finite numbers",
+                                         p.where, p.name, at[i].x, at[i].y, at[i].z, b.rho[i], b.e[i]));
+        const Point v = initial_velocity(p, at[i]);
+        b.v[0][i] = v.x;
+        b.v[1][i] = v.y;
+        b.v[2][i] = v.z;
     }
+    if (p.density_field) b.rho_start = b.rho;
     if (b.period > 0)
         for (double& z : b.x[2]) z -= b.period * std::floor((z - b.z_low) / b.period);
     if (b.material.burn) {
@@ -249,9 +266,9 @@ Estimate estimate(const Case& c) {
         const double pad = largest_offset(p.smoothing);
         const double slots = solid ? columns * (std::ceil(layers / width) * width + std::ceil(2 * pad / width) * width) : part.particles;
         const double state = m.strength ? static_cast<double>(m.strength->state().size()) : 0;
-        const double per_slot = solid ? real * (37 + state + (p.viscosity.pairwise ? 6 : 0)) + 4 * 6 + 2 : 8.0 * (3 * 5 + 13 + 14) + 64;
+        const double per_slot = solid ? real * (37 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : 8.0 * (3 * 5 + 13 + 14) + 64;
         part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
-        part.dt = solid ? c.step.courant_solid * stencil_tau * std::min(p.spacing, p.spacing_z) / m.sound_speed()
+        part.dt = solid ? c.step.courant_solid * stencil_tau(p.smoothing, p.zero_energy) * std::min(p.spacing, p.spacing_z) / m.sound_speed()
                         : c.step.courant_fluid * p.smoothing * p.spacing /
                               (std::max(m.sound_speed(), m.burn ? m.burn->speed : 0.0) * (1 + 0.6 * p.viscosity.alpha));
         e.parts.push_back(part);
@@ -265,7 +282,7 @@ Estimate estimate(const Case& c) {
         if (!burns(k) || e.parts.size() == 1) fast = std::min(fast, e.parts[k].dt);
     e.steps = c.until / fast;
     // Particle-steps per second of one core, contact among what fluids cost; measured with the quick preset of cases/blast.
-    constexpr double solid_rate = 2.2e6, fluid_rate = 0.19e6;
+    constexpr double solid_rate = 3.9e6, fluid_rate = 0.19e6;
     for (const Estimate::Part& p : e.parts) {
         const bool solid = p.formulation == "total_lagrangian";
         e.core_seconds += p.particles * c.until / (solid ? std::clamp(p.dt, fast, most_short_steps * fast) * solid_rate : fast * fluid_rate);
@@ -280,7 +297,8 @@ World<R> assemble(const Case& c, const std::function<void(const std::string&)>& 
     w.z_low = extent.low;
     w.period = extent.periodic ? extent.high - extent.low : 0;
     w.contact = {c.contact.stiffness, c.contact.damping, c.contact.friction};
-    w.options = {c.step.courant_solid, c.step.courant_fluid, c.step.growth, c.step.minimum, c.step.energy_residual_limit};
+    w.options = {c.step.courant_solid, c.step.courant_fluid, c.step.growth, c.step.minimum,
+                 c.step.energy_residual_limit, c.step.velocity_limit, c.step.torn_limit, c.step.leak_limit};
 
     for (const PartData& p : c.parts) {
         const Placement placement = place(*p.shape, later_shapes(c, p), placement_options(c, p, extent));
@@ -307,8 +325,8 @@ World<R> assemble(const Case& c, const std::function<void(const std::string&)>& 
     for (std::size_t i = 0; i < w.solids.size(); ++i)
         for (std::size_t j = i + 1; j < w.solids.size(); ++j) {
             if (!in_contact(c, w.solids[i].body.name, w.solids[j].body.name)) continue;
-            // the finer one gives the nodes, the coarser one the smooth wall
-            const bool i_finer = mean_spacing(w.solids[i].surface) < mean_spacing(w.solids[j].surface);
+            // the finer one gives the nodes, the coarser one the smooth wall; of equal ones, whatever rounding says, the later gives the nodes
+            const bool i_finer = mean_spacing(w.solids[i].surface) < (1 - 1e-9) * mean_spacing(w.solids[j].surface);
             w.contacts.push_back({ContactPair::solid_solid, i_finer ? i : j, i_finer ? j : i});
         }
 
@@ -316,23 +334,31 @@ World<R> assemble(const Case& c, const std::function<void(const std::string&)>& 
         for (SolidPart<R>& s : w.solids) {
             if (b.part != "*" && b.part != s.body.name) continue;
             if (b.kind == BoundaryKind::fix) {
+                const bool axis[3] = {b.fix_x, b.fix_y, b.fix_z};
+                if (b.on) {
+                    s.fixed.push_back(make_fixed_region(s.body, *b.on, axis));
+                    if (s.fixed.back().slots.empty()) throw InputError(fmt::format("boundary fix on part {}: no particle of the part lies inside its shape", s.body.name));
+                    continue;
+                }
                 // in a slice nothing ends at a plane across z
                 if (extent.periodic && std::abs(b.normal.z) > 0.7 * norm(b.normal)) continue;
-                const bool axis[3] = {b.fix_x, b.fix_y, b.fix_z};
                 s.fixed.push_back(make_fixed_plane(s.body, b.point, b.normal, axis));
             } else if (b.kind == BoundaryKind::platen) {
                 if (extent.periodic && std::abs(b.normal.z) > 0.7 * norm(b.normal)) continue;
                 s.platens.push_back(make_solid_platen(s.body, Platen{b.point, b.normal}));
-            } else {
+            } else if (b.kind == BoundaryKind::pressure) {
                 s.loads.push_back(make_wall_pressure(s.body, s.surface, *b.on, b.times, b.values));
                 if (s.loads.back().points.empty())
                     throw InputError(fmt::format("boundary pressure on part {}: no wall of the part lies inside its shape", s.body.name));
             }
         }
         for (FluidPart& f : w.fluids) {
-            if (b.kind != BoundaryKind::platen || (b.part != "*" && b.part != f.body.name)) continue;
+            if ((b.kind != BoundaryKind::platen && b.kind != BoundaryKind::mirror) || (b.part != "*" && b.part != f.body.name)) continue;
             if (extent.periodic && std::abs(b.normal.z) > 0.7 * norm(b.normal)) continue;
-            f.platens.push_back(Platen{b.point, b.normal});
+            if (b.kind == BoundaryKind::platen) f.platens.push_back(Platen{b.point, b.normal});
+            else if (std::abs(b.normal.x) > 0.7) f.body.mirrors.push_back({0, b.point.x});
+            else if (std::abs(b.normal.y) > 0.7) f.body.mirrors.push_back({1, b.point.y});
+            else f.body.mirrors.push_back({2, b.point.z});
         }
     }
     return w;

@@ -3,90 +3,57 @@
 #pragma once
 
 #include "app/recorder.h"
-#include "base/error.h"
-#include "base/version.h"
 #include "integrate/fields.h"
 #include "io/archive.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cstdint>
+#include <filesystem>
+#include <string>
 
 namespace brisance {
 
-inline constexpr const char* checkpoint_schema = "brisance checkpoint 1";
-
 class Checkpoints {
 public:
-    explicit Checkpoints(const RunDirectory& run) : run_(run) {
-        std::ifstream in(run.file("case.toml"), std::ios::binary);
-        Checksum sum;
-        sum.add(std::string(std::istreambuf_iterator<char>(in), {}));
-        case_ = fmt::format("{:016x}", sum.value());
-    }
+    explicit Checkpoints(const RunDirectory& run);
 
+    /// A checkpoint that this program can go on from, and what it says of its run.
+    struct Found {
+        std::filesystem::path path;
+        std::uint64_t number = 0;
+        double time = 0, until = 0;  ///< us
+        Provenance provenance;       ///< of the run so far: command, start, case file, preset, settings, earlier resumes
+        std::string remark;          ///< ", written by another build ...", or nothing
+    };
+    /// The newest (`older`: the one before). Throws ResourceError that says what is wrong with a checkpoint, truncated, damaged, of another
+    /// version or another case, and what there is beside it.
+    Found find(bool older) const;
+
+    /// Writes the state over the older of the two. The one before stays whole whatever happens.
     template <class R>
-    void write(World<R>& w, Recorder<R>& recorder) {
-        const std::uint64_t number = next_++;
-        ArchiveWriter out(file(number));
-        out.note("schema", checkpoint_schema);
-        out.note("version", version());
-        out.note("commit", commit());
-        out.note("case", case_);
-        out.note("number", std::to_string(number));
-        out.note("time", fmt::format("{} us", w.time));
+    void write(World<R>& w, Recorder<R>& recorder, const Provenance& p, double until) {
+        ArchiveWriter out(file(next_));
+        head(out, next_, w.time, until, p);
         each_field(w, out);
         recorder.each_field(out);
         out.close();
+        ++next_;
     }
 
-    /// Gives a world that has begun, and its recorder, the newest state (`older`: the one before). Throws ResourceError that says what is
-    /// wrong with a checkpoint and what there is beside it.
+    /// Gives a world that has begun, and its recorder, the state. Throws ResourceError where it does not fit.
     template <class R>
-    std::string read(World<R>& w, Recorder<R>& recorder, bool older) {
-        std::vector<std::pair<std::uint64_t, std::filesystem::path>> found;
-        std::string unreadable;
-        for (std::uint64_t slot : {0, 1}) {
-            const std::filesystem::path path = file(slot);
-            if (!std::filesystem::exists(path)) continue;
-            try {
-                found.emplace_back(std::stoull(ArchiveReader(path).note("number")), path);
-            } catch (const std::exception& e) {
-                unreadable += std::string("\n  ") + e.what();
-            }
-        }
-        std::sort(found.rbegin(), found.rend());
-        const std::size_t chosen = older && unreadable.empty() ? 1 : 0;
-        if (!unreadable.empty() && !older)
-            throw ResourceError("a checkpoint cannot be read:" + unreadable + (found.empty() ? "" : "\n  --older takes the other one"));
-        if (found.size() <= chosen) throw ResourceError(run_.checkpoints().string() + ": no " + (older ? "older " : "") + "checkpoint to go on from" + unreadable);
-        const auto& [number, path] = found[chosen];
-        try {
-            ArchiveReader in(path);
-            const auto same = [&](const char* what, const std::string& here) {
-                if (in.note(what) != here)
-                    throw ResourceError(fmt::format("{}: its {} is {}, here it is {}", path.string(), what, in.note(what), here));
-            };
-            same("schema", checkpoint_schema);
-            same("version", version());
-            same("case", case_);
-            each_field(w, in);
-            recorder.each_field(in);
-            in.finish();
-            next_ = number + 1;
-            return fmt::format("{} at {}{}", path.filename().string(), in.note("time"),
-                               in.note("commit") == commit() ? "" : ", written by another build (" + in.note("commit") + "): the bits may differ");
-        } catch (const ResourceError& e) {
-            throw ResourceError(std::string(e.what()) + (older || found.size() < 2 ? "" : "; --older takes the checkpoint before it"));
-        }
+    void read(const Found& found, World<R>& w, Recorder<R>& recorder) {
+        ArchiveReader in(found.path);
+        each_field(w, in);
+        recorder.each_field(in);
+        in.finish();
+        next_ = found.number + 1;
     }
 
 private:
-    std::filesystem::path file(std::uint64_t number) const { return run_.checkpoints() / fmt::format("state_{}.h5", number % 2); }
+    std::filesystem::path file(std::uint64_t number) const;
+    void head(ArchiveWriter& out, std::uint64_t number, double time, double until, const Provenance& p) const;
     const RunDirectory& run_;
-    std::string case_;
+    std::string case_;   ///< checksum of case.toml
     std::uint64_t next_ = 0;
 };
 

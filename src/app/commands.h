@@ -36,7 +36,21 @@ int resume_command(const std::string& run, bool older, const CaseOptions& o);
 int analyze_command(const std::string& run, bool json);
 int report_command(const std::vector<std::string>& runs, const std::string& out, bool pdf);
 int view_command(const std::string& run);
-int materials_command(const std::string& name, bool json);
+int materials_command(const std::string& name, bool json, bool full);
+/// What `brisance material` is asked for; empty or 0: the default of the path.
+struct PointOptions {
+    std::string material, path = "uniaxial_strain";
+    std::string strain, rate, pressure, velocity;
+    std::vector<std::string> confinement;
+    double volume = 0, scale = 0, damage = 0;
+    int steps = 0;
+    std::string csv, plot;
+    bool json = false;
+};
+int material_command(const PointOptions& o);
+/// The preset paths and their meanings, for --help.
+std::string point_presets();
+int verify_command(const std::vector<std::string>& arguments);
 int reference_command();
 
 /// Runs one of the Python scripts with an interpreter that has the modules; returns its exit code.

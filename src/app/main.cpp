@@ -84,10 +84,50 @@ int main_with_errors(int argc, char** argv) {
     view->add_option("run", name, "run directory")->required();
     view->callback([&] { code = view_command(name); });
 
+    std::vector<std::string> cases;
+    std::string lane = "quick";
+    bool list = false, docs = false;
+    CLI::App* verify = app.add_subcommand("verify", "run verification cases and hold them against their exact solutions; exit code 1 where a bound is missed");
+    verify->add_option("case", cases, "names of folders in cases/verification (default: all of the lane)");
+    verify->add_option("--lane", lane, "quick: minutes; full: all spacings and cases")->check(CLI::IsMember({"quick", "full"}));
+    verify->add_option("--out", out, "where runs, pages and verify.json go (default: runs/verify)");
+    verify->add_flag("--json", json, "print the results as JSON");
+    verify->add_flag("--list", list, "name the cases, run nothing");
+    verify->add_flag("--docs", docs, "write the pages of docs/verification too");
+    verify->callback([&] {
+        std::vector<std::string> arguments = cases;
+        arguments.insert(arguments.end(), {"--lane", lane});
+        if (!out.empty()) arguments.insert(arguments.end(), {"--out", out});
+        for (const auto& [given, flag] : {std::pair{json, "--json"}, {list, "--list"}, {docs, "--docs"}})
+            if (given) arguments.emplace_back(flag);
+        code = verify_command(arguments);
+    });
+
     CLI::App* materials = app.add_subcommand("materials", "the material library: constants, sources, checks");
     materials->add_option("name", name, "one material, in full");
     materials->add_flag("--json", json, "machine-readable");
-    materials->callback([&] { code = materials_command(name, json); });
+    bool full = false;
+    materials->add_flag("--full", full, "with the source and the checks of each");
+    materials->callback([&] { code = materials_command(name, json, full); });
+
+    PointOptions point;
+    CLI::App* material = app.add_subcommand("material", "drives a material at one point along a path: stress, damage, energy");
+    material->add_option("material", point.material, "a material of the library, or a file")->required();
+    material->add_option("--path", point.path, "a preset, or a path file (TOML; docs/material-point.md)")->capture_default_str();
+    material->add_option("--strain", point.strain, "how far the preset goes: 0.05 or \"5 %\"");
+    material->add_option("--rate", point.rate, "strain rate (default \"1000 1/s\")");
+    material->add_option("--confinement", point.confinement, "side pressure, \"50 MPa\"; several draw several curves")->allow_extra_args(false);
+    material->add_option("--pressure", point.pressure, "\"1 GPa\", of hydrostatic paths");
+    material->add_option("--velocity", point.velocity, "particle velocity of shocks (default \"500 m/s\")");
+    material->add_option("--volume", point.volume, "V/V0 at the end of a release")->check(CLI::PositiveNumber);
+    material->add_option("--scale", point.scale, "strength scale of the place")->check(CLI::PositiveNumber);
+    material->add_option("--damage", point.damage, "damage at the start")->check(CLI::Range(0.0, 1.0));
+    material->add_option("--steps", point.steps, "steps of each leg (default 1000)")->check(CLI::Range(1, 10000000));
+    material->add_option("--csv", point.csv, "write all rows to this file");
+    material->add_flag("--json", point.json, "print all rows as JSON");
+    material->add_option("--plot", point.plot, "draw the curves to this PNG");
+    material->footer("Presets of --path:\n" + point_presets());
+    material->callback([&] { code = material_command(point); });
 
     CLI::App* reference = app.add_subcommand("reference", "every key of a case file, as Markdown");
     reference->callback([&] { code = reference_command(); });
@@ -112,8 +152,25 @@ void wait_politely(char** argv) {
     execv("/proc/self/exe", argv);  // where this fails the run goes on as it is
 }
 
+/// Memory can run out in any thread, where no exception may pass. The words are put together without asking for more.
+[[noreturn]] void out_of_memory() {
+    char text[512];
+    long pages = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%*d %ld", &pages) != 1) pages = 0;
+        std::fclose(file);
+    }
+    const int length = std::snprintf(text, sizeof text,
+                                     "error: out of memory: %ld MiB are in use, and the system gives no more (free memory, ulimit -v, or the limit of a batch job)\n"
+                                     "  `brisance check CASE` tells what a case needs; a run that has begun goes on from its last checkpoint: brisance resume RUN\n",
+                                     pages * (sysconf(_SC_PAGESIZE) / 1024) / 1024);
+    if (length > 0 && write(STDERR_FILENO, text, static_cast<std::size_t>(length)) < 0) std::_Exit(static_cast<int>(brisance::Exit::resources));
+    std::_Exit(static_cast<int>(brisance::Exit::resources));
+}
+
 int main(int argc, char** argv) {
     wait_politely(argv);
+    std::set_new_handler(out_of_memory);
     try {
         return brisance::main_with_errors(argc, argv);
     } catch (const brisance::Error& e) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands that Python does: report and view. The interpreter must have the modules, and the first python3 of a PATH often has not.
+// The commands that Python does: report, view, verify. The interpreter must have the modules, and the first python3 of a PATH often has not.
 #include "app/commands.h"
 #include "base/error.h"
 
@@ -58,6 +58,11 @@ int report_command(const std::vector<std::string>& runs, const std::string& out,
     if (!out.empty()) arguments.insert(arguments.end(), {"--out", out});
     if (!pdf) arguments.emplace_back("--no-pdf");
     return run_python("report.py", arguments);
+}
+
+int verify_command(const std::vector<std::string>& arguments) {
+    setenv("BRISANCE", std::filesystem::read_symlink("/proc/self/exe").c_str(), 1);  // the cases are run by this very program
+    return run_python("verify.py", arguments);
 }
 
 int view_command(const std::string& run) { return run_python("view.py", {run}); }

@@ -50,8 +50,8 @@ std::uint8_t cause_of(const SolidBody<R>& b, std::size_t i, const AnalysisData& 
 }  // namespace
 
 template <class R>
-std::int64_t count_leaks(const World<R>& w) {
-    if (w.fluids.empty() || w.solids.empty()) return 0;
+Leaks find_leaks(const World<R>& w) {
+    if (w.fluids.empty() || w.solids.empty()) return {};
     double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
     for (const FluidPart& f : w.fluids)
         for (std::size_t i = 0; i < f.body.mass.size(); ++i) {
@@ -81,9 +81,11 @@ std::int64_t count_leaks(const World<R>& w) {
         }
     CellGrid grid;
     grid.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(x.size()), 0.5 * reach, reach, w.z_low, w.period);
-    double leaked = 0;
-    for (const FluidPart& f : w.fluids)
-        leaked += exec::sum(f.body.size(), [&](std::int64_t n) {
+    Leaks leaks;
+    for (std::size_t part = 0; part < w.fluids.size(); ++part) {
+        const FluidPart& f = w.fluids[part];
+        std::vector<std::uint8_t> leaked(f.body.mass.size());
+        exec::for_each(f.body.size(), [&](std::int64_t n) {
             const auto i = static_cast<std::size_t>(n);
             double colour = 0;
             const double px = f.body.x[0][i], py = f.body.x[1][i], pz = f.body.x[2][i];
@@ -95,9 +97,16 @@ std::int64_t count_leaks(const World<R>& w) {
                     if (q2 < 4) colour += volume[j] * kernel::sigma_3d / (hx[j] * hx[j] * hz[j]) * kernel::shape(std::sqrt(q2));
                 }
             });
-            return colour > 0.6 ? 1.0 : 0.0;
+            leaked[i] = colour > 0.6;
         });
-    return static_cast<std::int64_t>(leaked);
+        const std::int64_t count = std::count(leaked.begin(), leaked.end(), 1);
+        if (count > 0 && leaks.count == 0) {
+            leaks.part = part;
+            leaks.particle = static_cast<std::size_t>(std::find(leaked.begin(), leaked.end(), 1) - leaked.begin());
+        }
+        leaks.count += count;
+    }
+    return leaks;
 }
 
 template <class R>
@@ -179,7 +188,7 @@ std::optional<Audit> Recorder<R>::record(const World<R>& w) {
     if (w.time >= next_history_ - slack || snapshot_due) {
         while (next_history_ <= w.time + slack) next_history_ += case_.output.history_interval;
         const Audit a = audit(w);
-        leaked_ = count_leaks(w);
+        leaks_ = find_leaks(w);
         write_audit(a);
         write_gauges(w);
         std::vector<double> damaged{w.time};
@@ -251,7 +260,10 @@ std::vector<CsvFile*> Recorder<R>::files() {
 template <class R>
 std::vector<std::int64_t>& Recorder<R>::file_lengths() {
     lengths_.clear();
-    for (const CsvFile* f : files()) lengths_.push_back(f->length());
+    for (const CsvFile* f : files()) {
+        f->sync();  // a checkpoint counts on these rows
+        lengths_.push_back(f->length());
+    }
     return lengths_;
 }
 
@@ -353,7 +365,7 @@ void Recorder<R>::write_audit(const Audit& a) {
                      a.residual, a.residual_relative, a.momentum[0], a.momentum[1], a.momentum[2], a.momentum_residual, a.penetration})
         row.emplace_back(e);
     row.emplace_back(a.penetration_where);
-    row.emplace_back(leaked_);
+    row.emplace_back(leaks_.count);
     row.emplace_back(a.torn);
     row.emplace_back(a.damaged);
     audit_.row(row);
@@ -427,7 +439,7 @@ void Recorder<R>::write_snapshot(const World<R>& w) {
 
 template class Recorder<double>;
 template class Recorder<float>;
-template std::int64_t count_leaks(const World<double>&);
-template std::int64_t count_leaks(const World<float>&);
+template Leaks find_leaks(const World<double>&);
+template Leaks find_leaks(const World<float>&);
 
 }  // namespace brisance

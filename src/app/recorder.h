@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/section_report.h"
-#include "integrate/world.h"
+#include "integrate/watchdog.h"
 #include "io/case.h"
 #include "io/csv.h"
 #include "io/run_directory.h"
@@ -27,14 +27,14 @@ public:
     /// Final analysis and section files.
     void finish(const World<R>& w);
 
-    std::int64_t leaked() const { return leaked_; }
+    const Leaks& leaks() const { return leaks_; }
 
     /// What a checkpoint holds of the record: what is due next, series, the sections as they were, and how long each file was.
     template <class V>
     void each_field(V&& visit) {
         visit("record.next_history", next_history_);
         visit("record.next_snapshot", next_snapshot_);
-        visit("record.leaked", leaked_);
+        visit("record.leaked", leaks_.count);
         visit("record.borehole.time", borehole_.time);
         visit("record.borehole.value", borehole_.value);
         visit("record.front.time", front_.time);
@@ -89,10 +89,10 @@ private:
     SnapshotSeries snapshots_;
     double next_history_ = 0;
     std::uint64_t next_snapshot_ = 0;
-    std::int64_t leaked_ = 0;
+    Leaks leaks_;
 };
 
 /// Fluid particles that stand inside a solid: the solids' mass fraction around them, sum V W, exceeds 0.6 (it is a half on a wall).
-template <class R> std::int64_t count_leaks(const World<R>& w);
+template <class R> Leaks find_leaks(const World<R>& w);
 
 }  // namespace brisance

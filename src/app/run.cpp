@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/recorder.h"
 #include "base/error.h"
+#include "integrate/watchdog.h"
 #include "io/case_file.h"
 #include "io/log.h"
 
@@ -23,9 +24,6 @@ volatile std::sig_atomic_t stop_asked = 0, checkpoint_asked = 0;
 void ask_to_stop(int) { stop_asked = 1; }
 void ask_for_checkpoint(int) { checkpoint_asked = 1; }
 
-/// From the start, or on from a checkpoint.
-enum class Begin { anew, newest, older };
-
 double seconds_since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
 }
@@ -39,17 +37,28 @@ std::vector<std::pair<std::string, std::uint64_t>> particle_counts(const World<R
     return n;
 }
 
-template <class R>
-int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log& log, Begin from) {
+/// What the run is, at its beginning; `from`: where it goes on.
+Provenance provenance_of(const Case& c, const CaseOptions& o, const Checkpoints::Found* from) {
     Provenance p;
-    p.command = o.command;
-    p.started = utc_now();
+    if (from) {
+        p = from->provenance;
+        p.resumed.push_back({utc_now(), o.command, from->time});
+    } else {
+        p.command = o.command;
+        p.started = utc_now();
+        p.case_file = c.file;
+        p.preset = c.preset;
+        p.settings = c.settings;
+    }
     p.machine = this_machine(exec::threads());
     p.title = c.title;
-    p.case_file = c.file;
-    p.preset = c.preset;
-    p.settings = c.settings;
-    if (from == Begin::anew) directory.write_text("case.toml", c.resolved);
+    return p;
+}
+
+template <class R>
+int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log& log, const Checkpoints::Found* from) {
+    Provenance p = provenance_of(c, o, from);
+    if (!from) directory.write_text("case.toml", c.resolved);
     directory.write_provenance(p);
 
     const auto setup = std::chrono::steady_clock::now();
@@ -62,12 +71,12 @@ int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log&
         p.slice = Provenance::Slice{c.slice->z, c.slice->layers, e.high - e.low};
     }
     begin(w);
-    Recorder<R> recorder(c, w, directory, from != Begin::anew);
+    Recorder<R> recorder(c, w, directory, from != nullptr);
     Checkpoints checkpoints(directory);
-    if (from != Begin::anew) {
-        const std::string where = checkpoints.read(w, recorder, from == Begin::older);
+    if (from) {
+        checkpoints.read(*from, w, recorder);
         recorder.go_on(w);
-        log.line("on from " + where);
+        log.line(fmt::format("on from {} at {} us{}", from->path.filename().string(), w.time, from->remark));
     }
     log.line(fmt::format("set up in {:.1f} s; {} particles, until {:g} us", seconds_since(setup), all, c.until));
 
@@ -97,12 +106,12 @@ int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log&
         directory.write_provenance(p);
     };
     try {
-        Audit latest = from == Begin::anew ? recorder.record(w).value_or(Audit{}) : audit(w);
+        Audit latest = from ? audit(w) : recorder.record(w).value_or(Audit{});
         while (w.time < c.until - 1e-9 && !stop_asked) {
             step(w, std::min(c.until, recorder.next_due()));
             if (const auto row = recorder.record(w)) {
                 latest = *row;
-                watch(w, latest);
+                watch(w, latest, recorder.leaks());
             }
             Progress progress;
             progress.t_us = w.time;
@@ -120,12 +129,12 @@ int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log&
                 log.line(fmt::format("step {} t {} us state {:016x}", w.steps, w.time, hash.value()));
             }
             if (checkpoint_asked || 1e6 * seconds_since(written) > c.output.checkpoint_interval) {
-                checkpoints.write(w, recorder);
+                checkpoints.write(w, recorder, p, c.until);
                 written = std::chrono::steady_clock::now();
                 checkpoint_asked = 0;
             }
         }
-        checkpoints.write(w, recorder);
+        checkpoints.write(w, recorder, p, c.until);
         if (stop_asked) {
             close("interrupted");
             throw Interrupted(fmt::format("stopped by a signal at t = {:.3f} us; go on with: brisance resume {}", w.time, directory.path().string()));
@@ -133,23 +142,33 @@ int run(const Case& c, const CaseOptions& o, const RunDirectory& directory, Log&
         close("finished");
         log.line(fmt::format("{} steps in {:.1f} s; energy residual {:.2e}, momentum residual {:.1e}, largest penetration {:.3f} mm ({}), leaked {}, torn {}",
                              w.steps, p.wall_seconds, latest.residual_relative, latest.momentum_residual, latest.penetration, latest.penetration_where,
-                             recorder.leaked(), latest.torn));
+                             recorder.leaks().count, latest.torn));
         std::string shares = "time:";
         for (const auto& [name, seconds] : w.seconds) shares += fmt::format("  {} {:.0f} %", name, 100 * seconds / p.wall_seconds);
         log.line(shares);
     } catch (const PhysicsStop&) {
         close("physics stop");
         throw;
+    } catch (const ResourceError& e) {
+        log.end_progress();
+        p.status = "stopped";
+        p.finished = utc_now();
+        try {
+            directory.write_provenance(p);
+        } catch (const ResourceError&) {  // the same disk
+        }
+        throw ResourceError(fmt::format("{}\n  t = {:.3f} us; mend it, then go on from the last checkpoint: brisance resume {}", e.what(), w.time, directory.path().string()));
     }
     return 0;
 }
 
-int run_and_report(const Case& c, const CaseOptions& o, const RunDirectory& directory, Begin from) {
+int run_and_report(const Case& c, const CaseOptions& o, const RunDirectory& directory, const Checkpoints::Found* from) {
     Log::Options log_options;
     log_options.quiet = o.quiet;
     Log log(stderr, log_options);
-    log.open(directory.file("log.txt"), from != Begin::anew);
-    log.line(fmt::format("{} ({}{}) -> {}", c.title, c.file, c.preset.empty() ? "" : ", preset " + c.preset, directory.path().string()));
+    log.open(directory.file("log.txt"), from != nullptr);
+    const std::string &file = from ? from->provenance.case_file : c.file, &preset = from ? from->provenance.preset : c.preset;
+    log.line(fmt::format("{} ({}{}) -> {}", c.title, file, preset.empty() ? "" : ", preset " + preset, directory.path().string()));
     const int code = c.precision == Precision::single ? run<float>(c, o, directory, log, from) : run<double>(c, o, directory, log, from);
     if (code == 0 && o.report) {
         const int written = run_python("report.py", {directory.path().string(), "--no-pdf"});
@@ -165,16 +184,20 @@ int run_command(const CaseOptions& o) {
     const Case c = open_case(o);
     require_memory(c, estimate(c));
     const RunDirectory directory(o.out.empty() ? RunDirectory::default_path(o.file, o.preset) : std::filesystem::path(o.out), o.overwrite);
-    return run_and_report(c, o, directory, Begin::anew);
+    return run_and_report(c, o, directory, nullptr);
 }
 
 int resume_command(const std::string& run, bool older, const CaseOptions& o) {
     const RunDirectory directory = RunDirectory::existing(run);
+    const Checkpoints::Found from = Checkpoints(directory).find(older);
     CaseOptions with_case = o;
     with_case.file = directory.file("case.toml").string();
+    if (o.until.empty()) with_case.until = fmt::format("{} us", from.until);  // as far as the run was last told to go
     const Case c = open_case(with_case);
+    if (c.until < from.time)
+        throw InputError(fmt::format("--until \"{}\": {} stands at t = {} us already; a run goes forward only", o.until, from.path.string(), from.time));
     require_memory(c, estimate(c));
-    return run_and_report(c, with_case, directory, older ? Begin::older : Begin::newest);
+    return run_and_report(c, with_case, directory, &from);
 }
 
 }  // namespace brisance

@@ -43,6 +43,20 @@ FixedPlane make_fixed_plane(const SolidBody<R>& body, Point point, Point normal,
 }
 
 template <class R>
+FixedPlane make_fixed_region(const SolidBody<R>& body, const Shape& on, const bool axis[3]) {
+    FixedPlane region;
+    for (int k = 0; k < 3; ++k) region.axis[k] = axis[k];
+    for (const Column& c : body.layout.columns)
+        for (int k = 0; k < c.layers; ++k) {
+            const std::int64_t slot = c.start + k;
+            if (!(body.layout.flags[static_cast<std::size_t>(slot)] & slot_own) || !on.contains({c.x, c.y, c.z0 + k * body.layout.dz})) continue;
+            region.slots.push_back(slot);
+            region.mass.push_back(body.mass(c));
+        }
+    return region;
+}
+
+template <class R>
 void hold(const FixedPlane& plane, SolidBody<R>& body, double impulse[3]) {
     for (std::size_t i = 0; i < plane.slots.size(); ++i) {
         const auto slot = static_cast<std::size_t>(plane.slots[i]);
@@ -159,6 +173,7 @@ void press(const WallPressure& w, double time, const SolidBody<R>& b, const Colu
 
 #define BRISANCE_INSTANTIATE(R)                                                                                                       \
     template FixedPlane make_fixed_plane(const SolidBody<R>&, Point, Point, const bool*);                                             \
+    template FixedPlane make_fixed_region(const SolidBody<R>&, const Shape&, const bool*);                                            \
     template void hold(const FixedPlane&, SolidBody<R>&, double*);                                                                    \
     template SolidPlaten make_solid_platen(const SolidBody<R>&, const Platen&);                                                       \
     template ContactReport press(SolidPlaten&, const SolidBody<R>&);                                                                  \

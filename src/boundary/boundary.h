@@ -7,7 +7,7 @@
 
 namespace brisance {
 
-/// Components of velocity held at zero for the particles of a solid next to a plane. Reaction impulse is what momentum misses.
+/// Components of velocity held at zero for the particles of a solid next to a plane, or in a region. Reaction impulse is what momentum misses.
 struct FixedPlane {
     std::vector<std::int64_t> slots;
     std::vector<double> mass;  ///< mg
@@ -16,6 +16,8 @@ struct FixedPlane {
 
 /// The particles of each column that end at the plane: within one spacing of it (point, normal outward), at the column's end.
 template <class R> FixedPlane make_fixed_plane(const SolidBody<R>& body, Point point, Point normal, const bool axis[3]);
+/// The particles whose reference place lies inside a shape.
+template <class R> FixedPlane make_fixed_region(const SolidBody<R>& body, const Shape& on, const bool axis[3]);
 /// Takes the held components out; adds the impulse given by the support to `impulse`, mg mm/us.
 template <class R> void hold(const FixedPlane& plane, SolidBody<R>& body, double impulse[3]);
 

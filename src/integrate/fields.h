@@ -44,7 +44,6 @@ void each_field(World<R>& w, V&& visit) {
         visit(at + "dt", s.dt);
         visit(at + "time", s.time);
         visit(at + "rate", s.report.rate);
-        visit(at + "zero_energy", s.report.zero_energy);
         SolidBody<R>& b = s.body;
         columns(at + "u", b.u);
         columns(at + "v", b.v);
@@ -60,6 +59,12 @@ void each_field(World<R>& w, V&& visit) {
         visit(at + "power", b.power);
         visit(at + "stiffness", b.stiffness);
         visit(at + "live", b.live);
+        if (b.options.failure.fracture_energy > 0) visit(at + "opening", b.opening);
+        visit(at + "flags", b.layout.flags);  // which particles are torn,
+        std::vector<std::uint8_t> masked;     // and whose sums ask for it
+        for (const Tile& t : b.layout.tiles) masked.push_back(t.masked);
+        visit(at + "masked", masked);
+        for (std::size_t t = 0; t < masked.size(); ++t) b.layout.tiles[t].masked = masked[t] != 0;
         visit(at + "peak_pressure", b.peak_pressure);
         visit(at + "peak_radial", b.peak_radial);
         visit(at + "sigma_1", b.sigma_1);
@@ -75,13 +80,12 @@ void each_field(World<R>& w, V&& visit) {
             visit(fmt::format("{}platen.{}.y", at, p), s.platens[p].fy);
             visit(fmt::format("{}platen.{}.z", at, p), s.platens[p].fz);
         }
-        for (std::size_t p = 0; p < s.load_force.size(); ++p)
-            for (std::size_t i = 0; i < s.load_force[p].size(); ++i) {
-                Vec3<double>& force = s.load_force[p][i];
-                visit(fmt::format("{}load.{}.{}.x", at, p, i), force.x);
-                visit(fmt::format("{}load.{}.{}.y", at, p, i), force.y);
-                visit(fmt::format("{}load.{}.{}.z", at, p, i), force.z);
-            }
+        for (std::size_t p = 0; p < s.load_force.size(); ++p) {
+            std::vector<double> flat;  // x, y, z of one point after the other
+            for (const Vec3<double>& force : s.load_force[p]) flat.insert(flat.end(), {force.x, force.y, force.z});
+            visit(fmt::format("{}load.{}", at, p), flat);
+            for (std::size_t i = 0; i < s.load_force[p].size(); ++i) s.load_force[p][i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
+        }
     }
     for (FluidPart& f : w.fluids) {
         const std::string at = f.body.name + ".";

@@ -92,6 +92,13 @@ void outer_forces(World<R>& w) {
         for (std::size_t i = 0; i < s.loads.size(); ++i) press(s.loads[i], w.time, s.body, s.pairs, s.surface, s.load_force[i]);
     }
     w.force_from_outside = total_force(w) - inner;
+    for (const FluidPart& f : w.fluids) {
+        if (f.body.mirrors.empty()) continue;
+        const FluidBody& b = f.body;
+        double p[3];  // pairs within the part cancel; what is left came through the mirrors
+        for (std::size_t a = 0; a < 3; ++a) p[a] = exec::sum(b.size(), [&](std::int64_t i) { return b.mass[static_cast<std::size_t>(i)] * b.acceleration[a][static_cast<std::size_t>(i)]; });
+        w.force_from_outside = w.force_from_outside + Vec3<double>{p[0], p[1], p[2]};
+    }
     for (SolidPart<R>& s : w.solids)
         for (SolidPlaten& p : s.platens) add(press(p, s.body), s.body.name, "platen");
     w.contact_report = total;

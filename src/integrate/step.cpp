@@ -110,8 +110,10 @@ void begin(World<R>& w) {
         b.e_now = b.e;
         respond(w.ledger, f, w.time, 0);
     }
-    for (SolidPart<R>& s : w.solids)
+    for (SolidPart<R>& s : w.solids) {
+        fill_images(s.body.layout, s.body.v);  // neighbours beyond the period move too
         if (s.body.options.pairwise) s.body.v_now = s.body.v;
+    }
     outer_forces(w);
     w.start = audit(w);
     w.begun = true;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrate/step_size.h"
 
-#include "base/error.h"
-
-#include <fmt/format.h>
+#include "integrate/watchdog.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +21,7 @@ double solid_limit(const World<R>& w, const SolidPart<R>& s) {
     // pairwise viscosity damps the fastest motion, which shortens what an explicit step bears: with alpha = 1 a shock needs 0.45 in place
     // of 0.6 (tests/unit/physics/shock_test.cpp)
     const double viscous = s.body.options.pairwise ? 1 + 0.4 * s.body.options.alpha : 1;
-    return w.options.courant_solid * stencil_tau / (rate * viscous);
+    return w.options.courant_solid * stencil_tau(s.body.options.smoothing, s.body.options.zero_energy) / (rate * viscous);
 }
 
 /// Stable step of the fluids and of the solids that are not slow; notes who holds it.
@@ -48,16 +46,12 @@ double fast_limit(World<R>& w) {
         w.limiter = "growth";
     }
     if (dt < w.options.minimum)
-        throw PhysicsStop(fmt::format("the step fell to {:.3g} us (limit {:.3g} us) at t = {:.4f} us, held by {}; usual causes: a particle crushed "
-                                      "in a contact, or a law outside of its range. Look at the last snapshot of that part, or lower step.minimum",
-                                      dt, w.options.minimum, w.time, w.limiter));
+        throw collapsed_step(w, dt);
     return dt;
 }
 
-/// Output times are met exactly, without a splinter of a step before them.
-double fit(double dt, double left) {
-    return left <= dt * (1 + 1e-9) ? left : (left < 2 * dt ? 0.5 * left : dt);
-}
+/// Output times are met exactly, in equal steps: what a step that changes exchanges with stiff springs does not balance.
+double fit(double dt, double left) { return left / std::ceil(left / dt - 1e-9); }
 
 }  // namespace
 
@@ -106,10 +100,7 @@ template <class R>
 double choose_short_step(World<R>& w, double end) {
     w.dt_free = fast_limit(w);
     w.contact_dt = std::max(w.contact_dt, w.dt_free);
-    const double left = end - w.time;
-    const bool block = std::any_of(w.solids.begin(), w.solids.end(), [](const SolidPart<R>& s) { return s.slow; });
-    return block ? left / std::ceil(left / w.dt_free - 1e-9)  // equal parts of what is left of the long step
-                 : fit(w.dt_free, left);
+    return fit(w.dt_free, end - w.time);
 }
 
 template double choose_step(World<double>&, double);

@@ -44,9 +44,13 @@ struct ContactPair {
 };
 
 struct StepOptions {
-    double courant_solid = 0.6, courant_fluid = 0.4, growth = 1.02;
+    double courant_solid = 0.8, courant_fluid = 0.4, growth = 1.02;
     double minimum = 0;  ///< us
-    double residual_limit = 0.05;
+    // what the watchdog bears (integrate/watchdog.h)
+    double residual_limit = 0.05;   ///< of the supplied energy
+    double velocity_limit = 30;     ///< km/s
+    double torn_limit = 0.01;       ///< of the particles of a solid
+    double leak_limit = 0.01;       ///< of the particles of a fluid
 };
 
 /// Running totals since the start, J, and impulses, mg mm/us.
@@ -108,7 +112,5 @@ template <class R> void begin(World<R>& w);
 template <class R> void step(World<R>& w, double until);
 /// The audit of the present state.
 template <class R> Audit audit(const World<R>& w);
-/// Throws PhysicsStop with the particle's whole row on NaN, a collapsed step, or an energy residual above the limit.
-template <class R> void watch(const World<R>& w, const Audit& a);
 
 }  // namespace brisance

@@ -8,18 +8,6 @@
 
 namespace brisance {
 
-void Checksum::add(const void* data, std::size_t bytes) {
-    constexpr std::uint64_t prime = 1099511628211ull;
-    const auto* p = static_cast<const unsigned char*>(data);
-    std::uint64_t word;
-    for (; bytes >= sizeof word; p += sizeof word, bytes -= sizeof word) {
-        std::memcpy(&word, p, sizeof word);
-        hash_ = (hash_ ^ word) * prime;
-        hash_ ^= hash_ >> 29;  // a product carries upwards only
-    }
-    for (; bytes > 0; ++p, --bytes) hash_ = (hash_ ^ *p) * prime;
-}
-
 ArchiveWriter::ArchiveWriter(std::filesystem::path path) : path_(std::move(path)), file_(hdf5::File::create(part_path(path_))) {}
 
 ArchiveWriter::~ArchiveWriter() {

@@ -3,24 +3,13 @@
 // reads with the same code (integrate/fields.h). The file appears whole or not at all.
 #pragma once
 
+#include "base/checksum.h"
 #include "io/hdf5.h"
 
-#include <cstring>
 #include <filesystem>
 #include <type_traits>
 
 namespace brisance {
-
-/// 64-bit FNV-1a over words of eight bytes: order and place of every bit count.
-class Checksum {
-public:
-    void add(const void* data, std::size_t bytes);
-    void add(const std::string& text) { add(text.data(), text.size()); }
-    std::uint64_t value() const { return hash_; }
-
-private:
-    std::uint64_t hash_ = 14695981039346656037ull;
-};
 
 /// Visits fields and takes their hash; writes nothing.
 class StateHash {

@@ -2,6 +2,7 @@
 // A case as data: what a case file says after includes, presets and --set, in internal units. Nothing here computes.
 #pragma once
 
+#include "base/formula.h"
 #include "geometry/cloud.h"
 #include "geometry/shape.h"
 #include "laws/parameters.h"
@@ -28,6 +29,8 @@ struct FailureData {
     OnFailure mode = OnFailure::jh2;
     std::optional<double> tensile_strength;  ///< GPa; largest principal stress that fails a particle (off when absent)
     std::optional<double> shear_strength;    ///< GPa; largest shear stress that fails a particle (off when absent)
+    std::optional<double> fracture_energy;   ///< J/mm2; tensile failure softens over a crack band (at once when absent)
+    std::string fracture_energy_where;
 };
 
 struct HeterogeneityData {
@@ -58,6 +61,8 @@ struct PartData {
     FailureData failure;
     HeterogeneityData heterogeneity;
     Point velocity{};              ///< initial, km/s
+    std::vector<Formula> velocity_field;  ///< initial, three formulas that are added to `velocity`, or none
+    std::optional<Formula> density_field, energy_field;  ///< initial, updated-Lagrangian: g/cm3, kJ/g; else those of the material
 };
 
 enum class DetonationKind { point, line, instant };
@@ -68,13 +73,13 @@ struct DetonationData {
     double time = 0;      ///< us
 };
 
-enum class BoundaryKind { fix, platen, pressure };
+enum class BoundaryKind { fix, platen, pressure, mirror };
 struct BoundaryData {
     BoundaryKind kind = BoundaryKind::fix;
     std::string part;                 ///< a part's name, or "*" for all
     Point point{}, normal{};          ///< a plane; normal points out of the material. fix: particles within one spacing of the plane
     bool fix_x = false, fix_y = false, fix_z = false;
-    ShapePtr on;                      ///< pressure: walls of the part inside this shape are loaded
+    ShapePtr on;                      ///< pressure: walls of the part inside this shape are loaded; fix: its particles inside it, in place of a plane
     std::vector<double> times, values;  ///< pressure history, us and GPa, linear between
 };
 
@@ -120,11 +125,13 @@ struct SliceData {
 };
 
 struct StepData {
-    double courant_solid = 0.6;   ///< fraction of the stable step of the stencil
+    double courant_solid = 0.8;   ///< fraction of the stable step of the stencil
     double courant_fluid = 0.4;
     double growth = 1.02;         ///< largest ratio of successive steps
-    double minimum = 0;           ///< us; the run stops when the step falls below
+    double minimum = 1e-6;        ///< us; the run stops when the step falls below
     double energy_residual_limit = 0.05;  ///< relative; the run stops above
+    double velocity_limit = 30;   ///< km/s; likewise
+    double torn_limit = 0.01, leak_limit = 0.01;  ///< fraction of a part's particles; likewise
 };
 
 struct Case {

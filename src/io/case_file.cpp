@@ -11,7 +11,9 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
+#include <stdexcept>
 
 namespace brisance {
 
@@ -352,6 +354,7 @@ private:
         data.z_phase = node.at("z_phase").flag;
         data.smoothing = node.at("smoothing").number;
         data.velocity = node.at("velocity").point();
+        if (const Node* fields = node.find("initial")) initial(*fields, data);
         data.viscosity = viscosity(node.at("viscosity"));
         by_formulation(node, data);
         data.failure = failure(node.at("failure"));
@@ -382,6 +385,22 @@ private:
 
     /// A quantity, which may have been supplied after the check that converts quantities.
     static double value(const Node& node, const char* key, Dimension dimension) { return parse_quantity(node.at(key).text, dimension); }
+
+    static Formula formula(const Node& node, Dimension wanted) {
+        try {
+            return Formula(node.text, wanted);
+        } catch (const std::invalid_argument& error) {
+            fail(node, error.what());
+        }
+    }
+
+    static void initial(const Node& node, PartData& data) {
+        if (const Node* velocity = node.find("velocity"))
+            for (const Node& component : velocity->children) data.velocity_field.push_back(formula(component, dimension::velocity));
+        if (data.formulation == Formulation::total_lagrangian) return;  // the other keys stay unread, which is an error
+        if (const Node* density = node.find("density")) data.density_field = formula(*density, dimension::density);
+        if (const Node* energy = node.find("energy")) data.energy_field = formula(*energy, dimension::specific_energy);
+    }
 
     static ViscosityData viscosity(const Node& node) {
         ViscosityData data;
@@ -417,6 +436,12 @@ private:
         data.mode = which<OnFailure>(node.at("mode"), {{"jh2", OnFailure::jh2}, {"no_tension_no_shear", OnFailure::no_tension_no_shear}, {"all_zero", OnFailure::all_zero}});
         if (const Node* strength = node.find("tensile_strength")) data.tensile_strength = strength->number;
         if (const Node* strength = node.find("shear_strength")) data.shear_strength = strength->number;
+        if (const Node* energy = node.find("fracture_energy")) {
+            if (!data.tensile_strength) fail(*energy, "a fracture energy needs the stress at which cracks begin: `tensile_strength` beside it");
+            if (data.mode != OnFailure::jh2) fail(*energy, "goes with mode = \"jh2\" only: a crack that opens sets its stresses itself");
+            data.fracture_energy = energy->number;
+            data.fracture_energy_where = origin(*energy);
+        }
         return data;
     }
 
@@ -472,7 +497,7 @@ private:
         const Node& name = node.at("part");
         BoundaryData data;
         data.part = name.text;
-        data.kind = which<BoundaryKind>(node.at("kind"), {{"fix", BoundaryKind::fix}, {"platen", BoundaryKind::platen}, {"pressure", BoundaryKind::pressure}});
+        data.kind = which<BoundaryKind>(node.at("kind"), {{"fix", BoundaryKind::fix}, {"platen", BoundaryKind::platen}, {"pressure", BoundaryKind::pressure}, {"mirror", BoundaryKind::mirror}});
         const std::string because = "kind = " + to_toml(node.at("kind"));
         if (data.kind == BoundaryKind::pressure) {
             data.on = read_shape(need(node, "on", because));
@@ -480,10 +505,14 @@ private:
             data.values = need(node, "values", because).numbers();
             if (data.times.empty() || data.times.size() != data.values.size())
                 fail(node.at("values"), "as many values as times are needed, and at least one: there are " + std::to_string(data.values.size()) + " values and " + std::to_string(data.times.size()) + " times");
+        } else if (data.kind == BoundaryKind::fix && node.has("on")) {
+            data.on = read_shape(node.at("on"));
         } else {
             data.point = need(node, "point", because).point();
             data.normal = direction(need(node, "normal", because));
         }
+        if (data.kind == BoundaryKind::mirror && std::max({std::abs(data.normal.x), std::abs(data.normal.y), std::abs(data.normal.z)}) < 1 - 1e-9)
+            fail(node.at("normal"), "a mirror stands across an axis: one of [1, 0, 0], [0, 1, 0], [0, 0, 1], or their opposites");
         if (data.kind == BoundaryKind::fix) {
             const std::vector<std::string> fixed = need(node, "fix", because).texts();
             if (fixed.empty()) fail(node.at("fix"), "nothing is fixed; allowed: a list of \"x\", \"y\", \"z\"");
@@ -495,6 +524,8 @@ private:
         const bool stays_out = data.part != "*" && root_.at("part").has(data.part) &&
                                std::none_of(result.parts.begin(), result.parts.end(), [&](const PartData& part) { return part.name == data.part; });
         if (stays_out) return;
+        if (data.part != "*" && data.kind == BoundaryKind::mirror && part_named(name, result).formulation == Formulation::total_lagrangian)
+            fail(name, "mirrors are for updated_lagrangian parts; of a solid, fix the component across the plane");
         if (data.part != "*") part_named(name, result);
         result.boundaries.push_back(std::move(data));
     }
@@ -581,6 +612,9 @@ private:
         result.step.growth = node.at("growth").number;
         result.step.minimum = node.at("minimum").number;
         result.step.energy_residual_limit = node.at("energy_residual_limit").number;
+        result.step.velocity_limit = node.at("velocity_limit").number;
+        result.step.torn_limit = node.at("torn_limit").number;
+        result.step.leak_limit = node.at("leak_limit").number;
     }
 
     Node& root_;
@@ -589,29 +623,48 @@ private:
 
 // --- the record ------------------------------------------------------------------------------------------------------------
 
-void describe(std::string& out, const std::string& name, const ParameterValue& value) {
-    out += one_line("#   " + name + " = " + value.text + "   [" + value.confidence + "] " + value.source + " (" + value.where + ")") + "\n";
+/// "T = {value = ..., source = "...", confidence = "..."}   # where it was read".
+std::string line_of(const std::string& name, const ParameterValue& value) {
+    const std::string text = value.text.find_first_not_of("+-.0123456789eE_") == std::string::npos ? value.text : in_quotes(value.text);
+    return name + " = {value = " + text + ", source = " + in_quotes(value.source) + ", confidence = " + in_quotes(value.confidence) + "}  # " + one_line(value.where) + "\n";
 }
 
-void describe(std::string& out, const std::string& role, const LawData& law) {
-    out += "#  " + role + ": " + law.law + "\n";
-    for (const auto& [name, value] : law.parameters) describe(out, name, value);
+std::string table_of(const std::string& name, const LawData& law) {
+    std::string out = "\n[" + name + "]\nlaw = " + in_quotes(law.law) + "  # " + one_line(law.where) + "\n";
+    for (const auto& [parameter, value] : law.parameters) out += line_of(parameter, value);
+    return out;
 }
 
-/// The materials that the parts use, as comments: every constant with its value, its source and the place where it is written.
-std::string materials_record(const Case& result) {
-    std::string out = "\n# Materials as used:\n";
+/// The materials that the parts use, each constant with its value, its source and the place where it was read: the resolved case needs no
+/// library, and means the same when the library changes.
+std::string materials_of(const Case& result) {
+    std::string out;
     std::set<std::string> done;
     for (const PartData& part : result.parts) {
-        const MaterialData& material = part.material;
-        if (!done.insert(material.name).second) continue;
-        out += "#\n# " + one_line(material.name + ": " + material.title + " (" + material.file + ")") + "\n";
-        describe(out, "density", material.density);
-        describe(out, "eos", material.eos);
-        if (material.strength) describe(out, "strength", *material.strength);
-        if (material.burn) describe(out, "burn", *material.burn);
+        const MaterialData& m = part.material;
+        if (!done.insert(m.name).second) continue;
+        const std::string name = "material." + m.name;
+        out += "\n[" + name + "]  # " + one_line(m.file) + "\ntitle = " + in_quotes(m.title) + "\nsource = " + in_quotes(m.source) + "\nnotes = [";
+        for (const std::string& note : m.notes) out += (&note == &m.notes.front() ? "" : ", ") + in_quotes(note);
+        out += "]\n" + line_of("density", m.density);
+        out += table_of(name + ".eos", m.eos);
+        if (m.strength) out += table_of(name + ".strength", *m.strength);
+        if (m.burn) out += table_of(name + ".burn", *m.burn);
     }
     return out;
+}
+
+/// Parts refer to their materials by name; in the record a name has to mean one material.
+void name_materials(Node& root, const Case& result) {
+    std::map<std::string, std::string> files;
+    for (const PartData& part : result.parts) {
+        Node& material = *root.child("part")->child(part.name)->child("material");
+        const auto [known, is_new] = files.emplace(part.material.name, part.material.file);
+        if (!is_new && known->second != part.material.file)
+            fail(material, "two materials of the run are named '" + part.material.name + "': " + known->second + " and " + part.material.file + "; rename one");
+        material.text = part.material.name;
+    }
+    remove(root, "material");
 }
 
 }  // namespace
@@ -638,10 +691,11 @@ Case read_case(const std::string& file, const std::string& preset, const std::ve
     if (const Node* unread = first_unread(root))
         fail(*unread, "the key '" + unread->key + "' has no effect here, given the other keys of this table; take it out");
 
+    name_materials(root, result);
     result.resolved = "# The case " + file + " as it was read, every value with its origin.\n";
     if (!preset.empty()) result.resolved += "# preset: " + preset + "\n";
     for (const std::string& setting : settings) result.resolved += "# --set " + one_line(setting) + "\n";
-    result.resolved += "\n" + resolved(root, case_schema()) + materials_record(result);
+    result.resolved += "\n" + resolved(root, case_schema()) + materials_of(result);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -67,6 +68,8 @@ void CsvFile::row(std::span<const CsvCell> cells) {
 }
 
 void CsvFile::append(std::span<const CsvCell> cells) {
+    struct stat status{};
+    if (::fstat(fd_, &status) == 0 && status.st_nlink == 0) fail(path_, "was removed while it was written", ENOENT);
     std::string line;
     for (const auto& cell : cells) {
         if (&cell != cells.data()) line += ',';
@@ -83,6 +86,10 @@ void CsvFile::append(std::span<const CsvCell> cells) {
         if (end < 0 || ::ftruncate(fd_, end - written) != 0) fail(path_, "cannot write, and a torn row remains", error);
     }
     fail(path_, "cannot write", error);
+}
+
+void CsvFile::sync() const {
+    if (::fsync(fd_) != 0 && errno != EINVAL) fail(path_, "cannot write out", errno);
 }
 
 std::int64_t CsvFile::length() const {

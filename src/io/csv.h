@@ -46,12 +46,14 @@ public:
     ~CsvFile();
 
     /// Appends a row; as many cells as columns (else std::invalid_argument). Where the disk is full the part of the row that did
-    /// reach the file is taken back.
+    /// reach the file is taken back. A file that was removed meanwhile is an error too: the rows would go nowhere.
     void row(std::initializer_list<CsvCell> cells) { row(std::span(cells.begin(), cells.size())); }
     void row(std::span<const CsvCell> cells);
     /// A row of numbers only.
     void row(std::span<const double> values) { row(std::vector<CsvCell>(values.begin(), values.end())); }
 
+    /// What was written is on the disk when this returns.
+    void sync() const;
     /// Length of the file, bytes; and back to an earlier one: rows written since are taken out.
     std::int64_t length() const;
     void cut(std::int64_t length);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/hdf5.h"
 
+#include "base/checksum.h"
 #include "base/error.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <functional>
 #include <new>
 #include <numeric>
@@ -79,6 +83,49 @@ Handle file_access() {
     H5Pset_fclose_degree(access.id(), H5F_CLOSE_SEMI);
     H5Pset_file_locking(access.id(), false, true);
     return access;
+}
+
+constexpr std::string_view seal_words = "brisance checksum ";
+constexpr std::size_t seal_bytes = seal_words.size() + 16 + 1;
+
+/// The last line of a file whose first `bytes` bytes are the data.
+std::string seal_of(std::ifstream& in, std::uint64_t bytes) {
+    Checksum sum;
+    std::vector<char> buffer(1 << 20);
+    in.seekg(0);
+    while (bytes > 0) {
+        const std::size_t n = static_cast<std::size_t>(std::min<std::uint64_t>(bytes, buffer.size()));
+        if (!in.read(buffer.data(), static_cast<std::streamsize>(n))) return {};
+        sum.add(buffer.data(), n);
+        bytes -= n;
+    }
+    return fmt::format("{}{:016x}\n", seal_words, sum.value());
+}
+
+void seal(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string line = seal_of(in, std::filesystem::file_size(path));
+    errno = 0;
+    std::ofstream out(path, std::ios::binary | std::ios::app);
+    if (line.empty() || !(out << line).flush()) throw ResourceError(fmt::format("{}: cannot write its checksum: {}", path, std::strerror(errno ? errno : EIO)));
+}
+
+void check_seal(const std::filesystem::path& path) {
+    constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+    const std::uint64_t size = std::filesystem::file_size(path);
+    std::ifstream in(path, std::ios::binary);
+    std::string head(signature.size(), '\0'), line(seal_bytes, '\0');
+    if (!in.read(head.data(), static_cast<std::streamsize>(head.size())) || head != signature)
+        throw ResourceError(path.string() + ": cannot open as HDF5: file signature not found");
+    if (size >= signature.size() + seal_bytes) {
+        in.seekg(static_cast<std::streamoff>(size - seal_bytes));
+        in.read(line.data(), seal_bytes);
+    }
+    if (!line.starts_with(seal_words))
+        throw ResourceError(path.string() + ": truncated, or changed by another program: its last line, the checksum, is missing");
+    if (const std::string found = seal_of(in, size - seal_bytes); found != line)
+        throw ResourceError(fmt::format("{}: damaged: its checksum is {}, the one written into it is {}", path.string(),
+                                        found.empty() ? "unreadable" : found.substr(seal_words.size(), 16), line.substr(seal_words.size(), 16)));
 }
 
 }  // namespace
@@ -165,8 +212,11 @@ Scalar Dataset::scalar() const {
 }
 
 std::size_t Dataset::checked_size(std::size_t bytes_each) const {
-    const std::uint64_t count = product(shape());
-    constexpr std::uint64_t limit = std::uint64_t{1} << 42;  // 4 TiB: a damaged header, not data
+    std::uint64_t count = 1;
+    for (const std::uint64_t extent : shape())
+        if (__builtin_mul_overflow(count, extent, &count)) throw ResourceError(where_ + ": has an impossible shape; the file is damaged");
+    constexpr std::uint64_t packing = 1100;  // deflate makes nothing smaller than this
+    const std::uint64_t limit = packing * static_cast<std::uint64_t>(H5Dget_storage_size(handle_.id()));
     if (count > limit / bytes_each) throw ResourceError(fmt::format("{}: claims to hold {} numbers; the file is damaged", where_, count));
     return static_cast<std::size_t>(count);
 }
@@ -244,6 +294,7 @@ File File::create(const std::filesystem::path& path) {
 File File::open(const std::filesystem::path& path) {
     begin();
     if (!std::filesystem::is_regular_file(path)) throw ResourceError(path.string() + ": no such file");
+    check_seal(path);
     const Handle access = file_access();
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
     if (file.id() < 0) fail_at(path.string(), "cannot open as HDF5");
@@ -251,7 +302,9 @@ File File::open(const std::filesystem::path& path) {
 }
 
 void File::close() {
-    if (handle_.id() >= 0 && (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0 || H5Fclose(handle_.release()) < 0)) fail("cannot write out");
+    if (handle_.id() < 0) return;
+    if (H5Fflush(handle_.id(), H5F_SCOPE_LOCAL) < 0 || H5Fclose(handle_.release()) < 0) fail("cannot write out");
+    seal(where_);
 }
 
 }  // namespace brisance::hdf5

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A thin owner's layer over HDF5: files, groups, datasets of numbers and attributes, closed by scope. Every failure becomes
 // a ResourceError that names the file, the object in it and HDF5's own innermost reason. Not for use by several threads at once.
+//
+// Behind the HDF5 data of each file stands one line, "brisance checksum <16 digits>", over all bytes before it; HDF5 and its readers pass
+// over it. It is checked before HDF5 looks at a file, since the library trusts what it reads and dies of damaged files.
 #pragma once
 
 #include <concepts>
@@ -154,9 +157,10 @@ class File : public Group {
 public:
     /// Creates or truncates.
     static File create(const std::filesystem::path& path);
-    /// Opens for reading. The message tells a missing file from one that is not HDF5 and from a truncated one.
+    /// Opens for reading. The message tells a missing file from one that is not HDF5, from a truncated and from a damaged one.
     static File open(const std::filesystem::path& path);
-    /// Writes out what is buffered and closes; only after it is the data known to be in the file. Close groups and datasets before.
+    /// Writes out what is buffered, closes, and adds the checksum; only after it is the data known to be in the file, and the file
+    /// readable. Close groups and datasets before.
     void close();
 
 private:

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -139,10 +140,12 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 Provenance::Provenance() : version(brisance::version()), commit(brisance::commit()), build(build_features()) {}
 
 std::string to_json(const Provenance& p) {
-    std::vector<std::string> settings, particles, rates;
+    std::vector<std::string> settings, particles, rates, resumed;
     for (const auto& setting : p.settings) settings.push_back(json_string(setting));
     for (const auto& [part, count] : p.particles) particles.push_back(fmt::format("{}: {}", json_string(part), count));
     for (const auto& [what, rate] : p.rates) rates.push_back(fmt::format("{}: {}", json_string(what), number(rate)));
+    for (const auto& r : p.resumed)
+        resumed.push_back(fmt::format(R"({{"at": {}, "command": {}, "from_us": {}}})", json_string(r.at), json_string(r.command), number(r.from_us)));
     const std::string slice = !p.slice ? "null"
                                        : fmt::format(R"({{"z_mm": {}, "layers": {}, "thickness_mm": {}}})", number(p.slice->z_mm),
                                                      p.slice->layers, number(p.slice->thickness_mm));
@@ -166,6 +169,7 @@ std::string to_json(const Provenance& p) {
         {"particles", fmt::format("{{{}}}", joined(particles, ", "))},
         {"rates", fmt::format("{{{}}}", joined(rates, ", "))},
         {"slice", slice},
+        {"resumed", fmt::format("[{}]", joined(resumed, ", "))},
     };
     std::vector<std::string> lines;
     for (const auto& [name, value] : members) lines.push_back(fmt::format("  \"{}\": {}", name, value));
@@ -182,7 +186,9 @@ fs::path RunDirectory::default_path(const fs::path& case_file, const std::string
 RunDirectory::RunDirectory(fs::path path, bool overwrite) : path_(std::move(path)) {
     try {
         if (fs::exists(path_) && !fs::is_directory(path_)) throw InputError(path_.string() + ": is a file, not a folder for a run");
-        if (fs::exists(path_) && holds_files(path_)) clear_for_overwrite(path_, overwrite);
+        fs::create_directories(path_);
+        hold();
+        if (holds_files(path_)) clear_for_overwrite(path_, overwrite);
         for (const char* folder : folders) fs::create_directories(path_ / folder);
     } catch (const fs::filesystem_error& error) {
         fail(error.path1().empty() ? path_ : error.path1(), "cannot prepare the folder of the run", error.code());
@@ -193,7 +199,25 @@ RunDirectory RunDirectory::existing(fs::path path) {
     if (!fs::exists(path / "case.toml")) throw InputError(path.string() + ": is not the folder of a run: it has no case.toml");
     RunDirectory run;
     run.path_ = std::move(path);
+    run.hold();
+    try {
+        for (const char* folder : folders) fs::create_directories(run.path_ / folder);
+    } catch (const fs::filesystem_error& error) {
+        fail(error.path1(), "cannot prepare the folder of the run", error.code());
+    }
     return run;
+}
+
+void RunDirectory::hold() {
+    const int fd = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) fail(path_, "cannot open the folder of the run", errno);
+    held_ = std::shared_ptr<const int>(new int(fd), [](const int* held) {
+        ::close(*held);
+        delete held;
+    });
+    // a file system without locks guards nothing, and is no reason to stop
+    if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw ResourceError(path_.string() + ": another brisance runs in this folder; wait for its end, stop it, or name another folder with --out");
 }
 
 }  // namespace brisance

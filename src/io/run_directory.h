@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,11 @@ struct Provenance {
         double thickness_mm = 0;
     };
     std::optional<Slice> slice;
+    struct Resumed {
+        std::string at, command;   ///< utc_now(), the command line
+        double from_us = 0;
+    };
+    std::vector<Resumed> resumed;           ///< each time that the run went on from a checkpoint
 
     Provenance();
 };
@@ -66,10 +72,11 @@ public:
     static std::filesystem::path default_path(const std::filesystem::path& case_file, const std::string& preset);
 
     /// Makes the folder with snapshots/, gauges/ and analysis/. A folder that holds files is refused unless `overwrite`, which
-    /// removes what a run writes and nothing else. Throws InputError for a refusal, ResourceError where the system refuses.
+    /// removes what a run writes and nothing else. Throws InputError for a refusal, ResourceError where the system refuses, or where
+    /// another process runs in this folder. One holds it until the end of the object; the kernel gives it back when a process dies.
     RunDirectory(std::filesystem::path path, bool overwrite);
 
-    /// The folder of an earlier run, to go on in it. Throws InputError where it is none.
+    /// The folder of an earlier run, to go on in it. Throws InputError where it is none, ResourceError where another process runs in it.
     static RunDirectory existing(std::filesystem::path path);
 
     const std::filesystem::path& path() const { return path_; }
@@ -85,7 +92,9 @@ public:
 
 private:
     RunDirectory() = default;
+    void hold();
     std::filesystem::path path_;
+    std::shared_ptr<const int> held_;   ///< the open folder
 };
 
 }  // namespace brisance

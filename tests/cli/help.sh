@@ -9,7 +9,7 @@ says out '^brisance [0-9]+\.[0-9]+\.[0-9]+ \([0-9a-f]+(-dirty)?\), |^brisance .*
 expect 0 --help
 says out '^Usage:' 'Exit codes: 0 ok, 2 bad input, 3 .*, 4 .*, 5 interrupted'
 mapfile -t commands < <(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' "$tmp/out")
-for name in run check analyze report view materials reference; do
+for name in run check analyze report view verify materials reference; do
     [[ " ${commands[*]} " == *" $name "* ]] || wrong "--help does not list $name (it lists: ${commands[*]})"
 done
 for name in "${commands[@]}"; do
@@ -23,4 +23,9 @@ expect 2 frobnicate
 expect 2 check
 expect 2 check cases/blast/air.toml --no-such-flag
 expect 2 run cases/blast/air.toml --threads 0
+expect 2 verify --lane slow
+expect 2 verify nonsense
+says err "no verification case 'nonsense'; there are: .*sod"
+expect 0 verify --list
+says out '^sod +fluids +Sod'
 finish

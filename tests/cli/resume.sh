@@ -3,24 +3,7 @@
 # Stop a run and go on, by every way a run can stop: what it leaves behind is what the undisturbed run leaves, byte for byte.
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
-settings=(--set 'part.rock.shape.cylinder.radius="13 mm"' --set 'gauge=[{name="G",part="rock",at=["6 mm","0 mm","100 mm"]}]'
-    --set 'output.snapshots="0.5 us"' --set 'output.history="0.02 us"' --set 'analysis.zones=["0 mm","6 mm","13 mm"]' --no-report --quiet)
-# in a process of its own, so that a signal finds the program
-start() { exec "$BRISANCE" run "$root/cases/blast/air_copper.toml" --preset quick --until "1.5 us" "${settings[@]}" "$@"; }
-same() {  # same RUN what
-    local f
-    for f in audit.csv history.csv gauges/G.csv analysis/analysis.json analysis/section_slice.csv snapshots/fields.vtkhdf.series; do
-        cmp -s "$tmp/whole/$f" "$1/$f" || wrong "$2: $f differs from that of the undisturbed run"
-    done
-    [[ $(checksum "$1") == $(checksum "$tmp/whole") ]] || wrong "$2: the last state differs from that of the undisturbed run"
-}
-checksum() {
-    /usr/bin/python3 - "$1" <<'PY'
-import glob, h5py, sys
-notes = [dict(h5py.File(f, "r").attrs) for f in glob.glob(sys.argv[1] + "/checkpoints/state_*.h5")]
-print(max(notes, key=lambda n: int(n["number"]))["checksum"])
-PY
-}
+source "$(dirname -- "${BASH_SOURCE[0]}")/small_case.sh"
 
 (start --out "$tmp/whole" --hash-every 20 2> "$tmp/err") || wrong "the undisturbed run failed: $(cat "$tmp/err")"
 grep -q 'state [0-9a-f]\{16\}' "$tmp/whole/log.txt" || wrong "--hash-every wrote no hash"
@@ -37,39 +20,59 @@ kill -TERM $pid; wait $pid; code=$?
 expect 0 resume "$tmp/polite" --no-report --quiet
 same "$tmp/polite" "SIGTERM and resume"
 
-# killed six times, each a random moment after a checkpoint, with checkpoints written all the time; then left alone
-newest() { stat -c %Y.%i "$tmp/killed/checkpoints/"state_?.h5 2> /dev/null | sort | tr '\n' ' '; }
-(start --out "$tmp/killed" --set 'output.checkpoint="0.1 s"' 2> "$tmp/err") & pid=$!
-kills=0
-while ((kills < 6)); do
-    before=$(newest)
-    while [[ $(newest) == "$before" ]] && kill -0 $pid 2> /dev/null; do sleep 0.02; done
-    sleep "0.0$((RANDOM % 10))"
-    kill -KILL $pid 2> /dev/null && kills=$((kills + 1))
-    wait $pid 2> /dev/null; code=$?
-    ((code == 0)) && break
-    "$BRISANCE" resume "$tmp/killed" --no-report --quiet 2> "$tmp/err" & pid=$!
-done
-wait $pid 2> /dev/null || wrong "after $kills kills the run did not come to its end: $(cat "$tmp/err")"
-((kills >= 3)) || wrong "killed only $kills times: the test tested nothing"
-same "$tmp/killed" "killed $kills times"
+# a run that is at its end can go further, and more than once; what the provenance says of the run stays
+expect 0 resume "$tmp/polite" --until "1.6 us" --no-report --quiet
+expect 0 resume "$tmp/polite" --until "1.7 us" --no-report --quiet
+expect 2 resume "$tmp/polite" --until "1 us"
+says err 'stands at t = 1\.7.* us already'
+/usr/bin/python3 - "$tmp/polite/provenance.json" <<'PY' || wrong "the provenance of a resumed run"
+import json, sys
+p = json.load(open(sys.argv[1]))
+assert p["case_file"].endswith("cases/blast/air_copper.toml") and p["preset"] == "quick" and len(p["settings"]) >= 8, p
+assert " run " in p["command"] and p["status"] == "finished" and len(p["resumed"]) == 3, p
+assert [round(r["from_us"], 6) for r in p["resumed"][1:]] == [1.5, 1.6], p["resumed"]
+PY
+[[ $(tail -n 1 "$tmp/polite/audit.csv" | cut -d, -f2 | cut -c1-3) == 1.7 ]] || wrong "the longer run did not reach 1.7 us"
+
+# two processes in one folder
+start --out "$tmp/held" --set 'output.checkpoint="0.1 s"' 2> "$tmp/err" & pid=$!
+while [[ ! -e $tmp/held/checkpoints/state_1.h5 ]] && kill -0 $pid 2> /dev/null; do sleep 0.05; done
+expect 4 resume "$tmp/held"
+says err 'held: another brisance runs in this folder'
+expect 4 run cases/blast/air_copper.toml --preset quick --out "$tmp/held" --overwrite
+says err 'held: another brisance runs in this folder'
+kill -USR1 $pid
+wait $pid || wrong "the run in a folder that others wanted did not end well: $(cat "$tmp/err")"
+same "$tmp/held" "wanted by others"
+
+# the library changes between the two: the case carries its materials
+cp -r materials "$tmp/library"
+start --out "$tmp/library_run" 2> "$tmp/err" & pid=$!
+while [[ $(cat "$tmp/library_run/audit.csv" 2> /dev/null | wc -l) -lt 20 ]] && kill -0 $pid 2> /dev/null; do sleep 0.05; done
+kill -TERM $pid; wait $pid
+sed -i 's/"57 MPa"/"5 MPa"/' "$tmp/library/barre_granite.toml"
+cmp -s materials/barre_granite.toml "$tmp/library/barre_granite.toml" && wrong "the library did not change: the test tests nothing"
+BRISANCE_MATERIALS=$tmp/library expect 0 resume "$tmp/library_run" --no-report --quiet
+same "$tmp/library_run" "another library"
 
 # a damaged checkpoint is refused with the reason; --older goes on from the other one
-newest=$(ls -t "$tmp/killed/checkpoints/"*.h5 | head -1)
+newest=$(ls -t "$tmp/held/checkpoints/"*.h5 | head -1)
 /usr/bin/python3 - "$newest" <<'PY'
 import h5py, sys
 with h5py.File(sys.argv[1], "r+") as f:
     f["rock.pressure"][3] += 1e-9
 PY
-expect 4 resume "$tmp/killed" --no-report --quiet
+expect 4 resume "$tmp/held" --no-report --quiet
 says err 'checksum' '--older'
-expect 0 resume "$tmp/killed" --older --no-report --quiet
-same "$tmp/killed" "--older"
+expect 0 resume "$tmp/held" --older --no-report --quiet
+same "$tmp/held" "--older"
 
 # another case, no run, a cut file
-sed -i 's/^until = "1.5 us"/until = "2.5 us"/' "$tmp/polite/case.toml"
-expect 4 resume "$tmp/polite" --no-report --quiet
-says err 'its case is [0-9a-f]{16}, here it is [0-9a-f]{16}'
+sed -i 's/^until = "1.5 us"/until = "2.5 us"/' "$tmp/library_run/case.toml"
+cp "$tmp/library_run/provenance.json" "$tmp/before.json"
+expect 4 resume "$tmp/library_run" --no-report --quiet
+cmp -s "$tmp/before.json" "$tmp/library_run/provenance.json" || wrong "a refused resume changed the provenance"
+says err 'belongs to another case: .*case.toml is not what it was'
 expect 2 resume "$tmp/nowhere"
 says err 'is not the folder of a run'
 for f in "$tmp/one/checkpoints/"*.h5; do truncate -s 1000 "$f"; done

@@ -52,16 +52,20 @@ TEST_F(RunFolder, has_a_name_from_case_and_preset) {
 }
 
 TEST_F(RunFolder, is_made_with_its_folders) {
-    const RunDirectory directory(run, false);
-    for (const auto& folder : {directory.snapshots(), directory.gauges(), directory.analysis()}) EXPECT_TRUE(fs::is_directory(folder));
+    {
+        const RunDirectory directory(run, false);
+        for (const auto& folder : {directory.snapshots(), directory.gauges(), directory.analysis()}) EXPECT_TRUE(fs::is_directory(folder));
+    }
     RunDirectory(run, false);  // empty folders are no reason to refuse
 }
 
 TEST_F(RunFolder, with_files_is_refused_unless_overwriting_is_asked) {
-    const RunDirectory first(run, false);
-    first.write_text("provenance.json", "{}");
-    first.write_text("snapshots/fields_0000.vtkhdf", "old");
-    first.write_text("notes.md", "mine");
+    {
+        const RunDirectory first(run, false);
+        first.write_text("provenance.json", "{}");
+        first.write_text("snapshots/fields_0000.vtkhdf", "old");
+        first.write_text("notes.md", "mine");
+    }
     EXPECT_NE(refusal(run, false).find("blast-quick: the folder holds files"), std::string::npos);
     EXPECT_TRUE(fs::exists(run / "provenance.json"));
 
@@ -84,6 +88,28 @@ TEST_F(RunFolder, cannot_be_a_file) {
     std::ofstream(top / "file") << "x";
     EXPECT_NE(refusal(top / "file", true).find("is a file"), std::string::npos);
     EXPECT_THROW(RunDirectory(top / "file" / "below", false), ResourceError);
+}
+
+TEST_F(RunFolder, belongs_to_one_at_a_time) {
+    std::optional<RunDirectory> first(std::in_place, run, false);
+    first->write_text("case.toml", "");
+    first->write_text("log.txt", "");
+    const auto wanted = [&](auto&& take) {
+        try {
+            take();
+        } catch (const ResourceError& error) {
+            return std::string(error.what());
+        }
+        return std::string("taken");
+    };
+    EXPECT_NE(wanted([&] { RunDirectory::existing(run); }).find("blast-quick: another brisance runs in this folder"), std::string::npos);
+    EXPECT_NE(wanted([&] { RunDirectory(run, true); }).find("another brisance runs"), std::string::npos);
+    EXPECT_TRUE(fs::exists(run / "log.txt"));
+    RunDirectory copy = *first;  // shares what the first holds
+    first.reset();
+    EXPECT_NE(wanted([&] { RunDirectory::existing(run); }), "taken");
+    copy = RunDirectory(top / "other", false);
+    EXPECT_EQ(wanted([&] { RunDirectory::existing(run); }), "taken");
 }
 
 TEST_F(RunFolder, texts_replace_the_old_ones_whole) {
@@ -110,6 +136,7 @@ TEST_F(RunFolder, provenance_is_json_that_python_reads) {
     p.particles = {{"rock", 5460000}};
     p.rates = {{"particle_steps", 9.3e6}, {"nothing", std::numeric_limits<double>::quiet_NaN()}};
     p.slice = Provenance::Slice{40, 8, 1.2};
+    p.resumed = {{"2026-01-02T03:04:05Z", "brisance resume \"a b\"", 0.125}};
     directory.write_provenance(p);
     std::ofstream(top / "check.py") << R"(
 import json, sys
@@ -119,9 +146,10 @@ assert p["command"] == "brisance run \"a b.toml\" --set rock.spacing='0.4 mm'"
 assert p["title"] == "line\nbreak \\ \x01" and p["settings"] == ["a=1", 'b="2"']
 assert p["particles"] == {"rock": 5460000} and p["rates"] == {"particle_steps": 9.3e6, "nothing": None}
 assert p["slice"] == {"z_mm": 40, "layers": 8, "thickness_mm": 1.2}
+assert p["resumed"] == [{"at": "2026-01-02T03:04:05Z", "command": 'brisance resume "a b"', "from_us": 0.125}]
 assert p["machine"]["threads"] == 2 and p["machine"]["cpu"] and p["machine"]["host"]
 keys = "schema version commit build command started finished machine title case_file preset settings status".split()
-assert list(p) == keys + "wall_seconds steps particles rates slice".split(), list(p)
+assert list(p) == keys + "wall_seconds steps particles rates slice resumed".split(), list(p)
 )";
     EXPECT_EQ(std::system(("/usr/bin/python3 " + (top / "check.py").string() + " " + (run / "provenance.json").string()).c_str()), 0);
     p.slice.reset();

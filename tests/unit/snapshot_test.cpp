@@ -186,7 +186,24 @@ TEST_F(Snapshots, that_are_none_are_refused_with_a_reason) {
         fs::copy_file(whole, folder / "torn.vtkhdf", fs::copy_options::overwrite_existing);
         fs::resize_file(folder / "torn.vtkhdf", size);
         const std::string message = message_of([&] { read_snapshot(folder / "torn.vtkhdf"); });
-        EXPECT_NE(message.find("torn.vtkhdf: cannot open as HDF5"), std::string::npos) << size << ": " << message;
+        const char* reason = size == 0 ? "torn.vtkhdf: cannot open as HDF5" : "torn.vtkhdf: truncated";
+        EXPECT_NE(message.find(reason), std::string::npos) << size << ": " << message;
+    }
+}
+
+TEST_F(Snapshots, with_one_bit_changed_are_refused) {
+    const fs::path path = folder / "whole.vtkhdf";
+    write_snapshot(path, 1, std::span<const double>(three_points), some_fields());
+    const auto size = static_cast<std::streamoff>(fs::file_size(path));
+    for (const std::streamoff at : {std::streamoff{9}, size / 3, size - 60, size - 2}) {
+        fs::copy_file(path, folder / "bad.vtkhdf", fs::copy_options::overwrite_existing);
+        std::fstream file(folder / "bad.vtkhdf", std::ios::in | std::ios::out | std::ios::binary);
+        file.seekg(at);
+        const auto byte = static_cast<char>(file.get() ^ 4);
+        file.seekp(at);
+        file.put(byte);
+        file.close();
+        EXPECT_NE(message_of([&] { read_snapshot(folder / "bad.vtkhdf"); }).find("bad.vtkhdf: damaged: its checksum is"), std::string::npos) << at;
     }
 }
 

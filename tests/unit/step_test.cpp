@@ -106,31 +106,6 @@ TEST(Step, OutputTimesAreMetWithoutSplinters) {
     }
 }
 
-TEST(Step, AStepStopsBeforeItIsWorthless) {
-    World<double> w = gas_between_plates();
-    w.options.minimum = 1;  // us: more than any part bears
-    begin(w);
-    try {
-        step(w, 10);
-        FAIL() << "went on";
-    } catch (const PhysicsStop& stop) {
-        EXPECT_NE(std::string(stop.what()).find("held by"), std::string::npos);
-    }
-}
-
-TEST(Step, TheWatchdogNamesTheParticle) {
-    World<double> w = gas_between_plates();
-    begin(w);
-    step(w, 1);
-    w.fluids[0].body.v[0][77] = std::nan("");
-    try {
-        watch(w, audit(w));
-        FAIL() << "saw nothing";
-    } catch (const PhysicsStop& stop) {
-        EXPECT_NE(std::string(stop.what()).find("particle 77"), std::string::npos) << stop.what();
-    }
-}
-
 TEST(Step, SameBitsWithAnyNumberOfThreads) {
     const int before = exec::threads();
     std::vector<double> x;
