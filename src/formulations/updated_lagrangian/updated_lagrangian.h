@@ -39,6 +39,8 @@ public:
     /// The same of one particle.
     double stable_rate(const FluidBody& body, std::size_t i) const;
     BodySums sums(const FluidBody& body) const;
+    /// Mean number of neighbours in the last rates().
+    double neighbours_per_particle() const { return static_cast<double>(neighbours_.bonds()) / static_cast<double>(std::max<std::size_t>(correction_.size(), 1)); }
 
 private:
     CellGrid grid_;
