@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "exec/exec.h"
 #include "io/case_file.h"
 
 #include <CLI/CLI.hpp>
@@ -180,6 +181,7 @@ void wait_politely(char** argv) {
 
 int main(int argc, char** argv) {
     wait_politely(argv);
+    brisance::exec::flush_denormals();
     std::set_new_handler(out_of_memory);
     try {
         return brisance::main_with_errors(argc, argv);
