@@ -42,7 +42,6 @@ std::vector<ShapePtr> later_shapes(const Case& c, const PartData& part) {
 
 PlacementOptions placement_options(const Case& c, const PartData& p, const Extent& extent) {
     PlacementOptions o;
-    o.name = p.name;
     o.arrangement = p.arrangement;
     o.angle = p.angle;
     o.seed = arrangement_seed(c, p);
@@ -113,17 +112,21 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
 
     const StrengthField field(p.heterogeneity.weibull_modulus, p.heterogeneity.correlation_length, p.heterogeneity.seed,
                               extent.periodic ? extent.high - extent.low : 0);
-    exec::for_each(static_cast<std::int64_t>(b.layout.columns.size()), [&](std::int64_t n) {
+    if (p.heterogeneity.weibull_modulus > 0) exec::for_each(static_cast<std::int64_t>(b.layout.columns.size()), [&](std::int64_t n) {
         const Column& column = b.layout.columns[static_cast<std::size_t>(n)];
         for (int k = 0; k < column.layers; ++k) {
             const auto i = static_cast<std::size_t>(column.start + k);
-            if (p.heterogeneity.weibull_modulus > 0) b.scale[i] = static_cast<R>(field({column.x, column.y, column.z0 + k * b.layout.dz}));
+            b.scale[i] = static_cast<R>(field({column.x, column.y, column.z0 + k * b.layout.dz}));
+        }
+    });
+    for (const Column& column : b.layout.columns)  // one after the other: a formula may object
+        for (int k = 0; k < column.layers; ++k) {
+            const auto i = static_cast<std::size_t>(column.start + k);
             const Point v = initial_velocity(p, {column.x, column.y, column.z0 + k * b.layout.dz});
             b.v[0][i] = static_cast<R>(v.x);
             b.v[1][i] = static_cast<R>(v.y);
             b.v[2][i] = static_cast<R>(v.z);
         }
-    });
     if (p.failure.fracture_energy) check_crack_band(b, p.failure);
     s.surface = make_surface(b);
     return s;
@@ -301,7 +304,13 @@ World<R> assemble(const Case& c, const std::function<void(const std::string&)>& 
                  c.step.energy_residual_limit, c.step.velocity_limit, c.step.torn_limit, c.step.leak_limit};
 
     for (const PartData& p : c.parts) {
-        const Placement placement = place(*p.shape, later_shapes(c, p), placement_options(c, p, extent));
+        const Placement placement = [&] {
+            try {
+                return place(*p.shape, later_shapes(c, p), placement_options(c, p, extent));
+            } catch (const InputError& e) {
+                throw InputError(fmt::format("{}: part {}, spacing {:g} mm: {}", p.where, p.name, p.spacing, e.what()));
+            }
+        }();
         if (p.formulation == Formulation::total_lagrangian) {
             w.solids.push_back(make_solid<R>(c, p, placement, extent));
             const SolidBody<R>& b = w.solids.back().body;
@@ -349,7 +358,7 @@ World<R> assemble(const Case& c, const std::function<void(const std::string&)>& 
             } else if (b.kind == BoundaryKind::pressure) {
                 s.loads.push_back(make_wall_pressure(s.body, s.surface, *b.on, b.times, b.values));
                 if (s.loads.back().points.empty())
-                    throw InputError(fmt::format("boundary pressure on part {}: no wall of the part lies inside its shape", s.body.name));
+                    throw InputError(fmt::format("{}: no wall of the part {} lies inside the shape of the pressure", b.where, s.body.name));
             }
         }
         for (FluidPart& f : w.fluids) {

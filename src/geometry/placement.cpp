@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "base/random.h"
 
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,7 @@ Placement place(const Shape& part, const std::vector<ShapePtr>& later, const Pla
     const Box box = part.bounds();
     const double z_low = o.slice ? o.z_low : box.min.z, z_high = o.slice ? o.z_high : box.max.z;
     if (!std::isfinite(box.max.x - box.min.x + box.max.y - box.min.y) || !(z_high > z_low) || !std::isfinite(z_high - z_low))
-        throw InputError(fmt::format("part {}: its shape is unbounded or empty; cut it with a box or a cylinder", o.name));
+        throw InputError("its shape is unbounded or empty; cut it with a box or a cylinder");
 
     const auto section = [&](Point p) {
         double d = part.section_distance(p);
@@ -77,7 +76,7 @@ Placement place(const Shape& part, const std::vector<ShapePtr>& later, const Pla
         }
         out.columns.push_back(c);
     }
-    if (out.columns.empty()) throw InputError(fmt::format("part {}: no particle fits at a spacing of {:g} mm", o.name, o.spacing));
+    if (out.columns.empty()) throw InputError("no particle fits at this spacing");
     return out;
 }
 

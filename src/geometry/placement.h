@@ -13,7 +13,6 @@
 namespace brisance {
 
 struct PlacementOptions {
-    std::string name;          ///< of the part, for messages
     Arrangement arrangement = Arrangement::relaxed;
     double angle = 0;
     std::uint64_t seed = 1;

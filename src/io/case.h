@@ -81,6 +81,7 @@ struct BoundaryData {
     bool fix_x = false, fix_y = false, fix_z = false;
     ShapePtr on;                      ///< pressure: walls of the part inside this shape are loaded; fix: its particles inside it, in place of a plane
     std::vector<double> times, values;  ///< pressure history, us and GPa, linear between
+    std::string where;                  ///< file, line and column of `on`
 };
 
 struct ContactData {

@@ -357,9 +357,6 @@ private:
         if (const Node* fields = node.find("initial")) initial(*fields, data);
         data.viscosity = viscosity(node.at("viscosity"));
         by_formulation(node, data);
-        data.failure = failure(node.at("failure"));
-        if (const Node* field = node.find("heterogeneity"))
-            data.heterogeneity = {field->at("weibull_modulus").number, field->at("correlation_length").number, static_cast<std::uint64_t>(field->at("seed").integer)};
         return data;
     }
 
@@ -421,6 +418,10 @@ private:
         if (data.formulation == Formulation::total_lagrangian) {
             if (!node.has("zero_energy")) supply(node, "zero_energy", "0.05", "total_lagrangian");
             data.zero_energy = node.at("zero_energy").number;
+            if (!node.has("failure")) supply(node, "failure", "{mode = \"jh2\"}", "total_lagrangian");
+            data.failure = failure(node.at("failure"));
+            if (const Node* field = node.find("heterogeneity"))
+                data.heterogeneity = {field->at("weibull_modulus").number, field->at("correlation_length").number, static_cast<std::uint64_t>(field->at("seed").integer)};
             return;
         }
         if (!node.has("artificial_stress")) supply(node, "artificial_stress", "false", "off");
@@ -501,6 +502,7 @@ private:
         const std::string because = "kind = " + to_toml(node.at("kind"));
         if (data.kind == BoundaryKind::pressure) {
             data.on = read_shape(need(node, "on", because));
+            data.where = node.at("on").where;
             data.times = ascending(need(node, "times", because), true);
             data.values = need(node, "values", because).numbers();
             if (data.times.empty() || data.times.size() != data.values.size())
@@ -553,6 +555,15 @@ private:
 
     // What is looked at
 
+    /// A name that is also the name of a file.
+    static const std::string& file_name(const Node& node) {
+        const std::string& name = node.text;
+        const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == ' '; };
+        if (name.empty() || name.front() == '.' || !std::all_of(name.begin(), name.end(), plain))
+            fail(node, "it names a file too; allowed: letters, digits, spaces, _, - and ., not first a point");
+        return name;
+    }
+
     void gauges(Case& result) const {
         std::set<std::string> names;
         for (const Node& node : root_.at("gauge").children) {
@@ -563,7 +574,7 @@ private:
             const double outside = part.shape->distance(at.point());
             if (outside > part.spacing_far)
                 fail(at, "the gauge lies outside the part '" + part.name + "', by " + shortest(std::round(outside * 1000) / 1000) + " mm");
-            if (!names.insert(node.at("name").text).second) fail(node.at("name"), "two gauges have the same name");
+            if (!names.insert(file_name(node.at("name"))).second) fail(node.at("name"), "two gauges have the same name");
             result.gauges.push_back({node.at("name").text, part.name, at.point()});
         }
     }
@@ -581,7 +592,7 @@ private:
         std::set<std::string> names;
         for (const Node& section : node.at("sections").children) {
             inside_heights(section.at("z"), part);
-            if (!names.insert(section.at("name").text).second) fail(section.at("name"), "two sections have the same name");
+            if (!names.insert(file_name(section.at("name"))).second) fail(section.at("name"), "two sections have the same name");
             data.sections.push_back({section.at("name").text, section.at("z").number});
         }
         data.tensile_strength = node.at("tensile_strength").number;

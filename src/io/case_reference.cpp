@@ -94,8 +94,8 @@ Schema make_schema() {
             {.name = "viscosity", .type = Type::table, .meaning = "artificial viscosity", .fallback = "{pairwise = {alpha = 1.0, beta = 2.0}}", .group = "viscosity"},
             or_else(number("zero_energy", "", "stiffness of the zero-energy control over the longitudinal modulus; total_lagrangian only", {0, 1}), "0.05 (total_lagrangian)"),
             or_else({.name = "artificial_stress", .type = Type::table, .meaning = "artificial stress against the tensile instability; updated_lagrangian only", .group = "artificial_stress", .or_flag = true}, "false"),
-            {.name = "failure", .type = Type::table, .meaning = "what happens to a failed particle, and stresses at which one fails besides the law's own damage", .fallback = "{}", .group = "failure"},
-            {.name = "heterogeneity", .type = Type::table, .meaning = "random field of strength", .absent = "homogeneous", .group = "heterogeneity"},
+            or_else({.name = "failure", .type = Type::table, .meaning = "what happens to a failed particle, and stresses at which one fails besides the law's own damage; total_lagrangian only", .group = "failure"}, "`{}`"),
+            {.name = "heterogeneity", .type = Type::table, .meaning = "random field of strength; total_lagrangian only", .absent = "homogeneous", .group = "heterogeneity"},
         }},
         {.name = "initial", .heading = "[part.NAME.initial]", .meaning = "Formulas in x, y, z, with units: `\"10 m/s * exp(-((x - 25 mm)/1.5 mm)^2)\"`. Operators + - * / ^; pi; sqrt exp log sin cos tan sinh cosh tanh atan2 abs min max hypot besselj0 besselj1; step(a) is 1 where a >= 0 and 0 elsewhere.", .keys = {
             {.name = "velocity", .type = Type::text, .meaning = "three formulas, added to `velocity` of the part", .absent = "none", .count = Count::three},

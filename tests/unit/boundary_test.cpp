@@ -13,7 +13,6 @@ const bool all_axes[3] = {true, true, true}, only_x[3] = {true, false, false}, o
 /// A granite ring about the z axis, one layer thick and endless.
 SolidPart<double> ring(double inner, double outer, double spacing, const SolidOptions& o, double growth = 0) {
     PlacementOptions p;
-    p.name = "rock";
     p.spacing = p.spacing_z = spacing;
     p.spacing_far = growth > 0 ? 1.5 * spacing : spacing;
     p.grading_radius = inner;

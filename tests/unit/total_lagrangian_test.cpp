@@ -459,7 +459,6 @@ TEST(TotalLagrangian, StableStepOfBodiesWithWalls) {
         report("cubic block", a, block(elastic_granite(), a, Lattice{10, 10, 10, 1, 1}));
         for (const double z : {1.0, 0.7}) {
             PlacementOptions o;
-            o.name = "rock";
             o.spacing = o.spacing_far = 1;
             o.spacing_z = z;
             o.smoothing = smoothing;

@@ -13,7 +13,6 @@ constexpr double a = 3.225, c = 4.54303, p0 = 0.1;  // mm, mm/us, GPa
 
 World<double> pressed_ring(double outer, double spacing, double far, double growth, const SolidOptions& o, double rise, double pressure) {
     PlacementOptions p;
-    p.name = "rock";
     p.spacing = spacing;
     p.spacing_far = far;
     p.grading_radius = a;
