@@ -50,6 +50,16 @@ struct PointOptions {
 int material_command(const PointOptions& o);
 /// The preset paths and their meanings, for --help.
 std::string point_presets();
+/// What `brisance bench` is asked for.
+struct BenchOptions {
+    std::vector<std::string> names;  ///< measurements; empty: all
+    int threads = 0;                 ///< at most; 0: all
+    int repeat = 3;
+    double particles = 0;            ///< of the loops; 0: as in cases/bench
+    bool json = false;
+    bool inside = false;             ///< this process is one measurement
+};
+int bench_command(const BenchOptions& o);
 int verify_command(const std::vector<std::string>& arguments);
 int reference_command();
 

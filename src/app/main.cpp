@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "exec/exec.h"
 #include "io/case_file.h"
 
 #include <CLI/CLI.hpp>
@@ -129,6 +130,16 @@ int main_with_errors(int argc, char** argv) {
     material->footer("Presets of --path:\n" + point_presets());
     material->callback([&] { code = material_command(point); });
 
+    BenchOptions bench_options;
+    CLI::App* bench = app.add_subcommand("bench", "speed of every part of a step on this machine, beside what the machine can do at most");
+    bench->add_option("name", bench_options.names, "rock, rock_single, copper, water, blast, law_jh2, law_johnson_cook, law_hjc, output, bandwidth, arithmetic (default: all)");
+    bench->add_option("--threads", bench_options.threads, "from one to so many (default: all)")->check(CLI::Range(1, 4096));
+    bench->add_option("--repeat", bench_options.repeat, "runs of each, of which the median counts")->check(CLI::Range(1, 99))->capture_default_str();
+    bench->add_option("--particles", bench_options.particles, "size of the loops (default: half a million)")->check(CLI::Range(0.0, 1e10));
+    bench->add_flag("--json", bench_options.json, "machine-readable");
+    bench->add_flag("--inside", bench_options.inside)->group("");
+    bench->callback([&] { code = bench_command(bench_options); });
+
     CLI::App* reference = app.add_subcommand("reference", "every key of a case file, as Markdown");
     reference->callback([&] { code = reference_command(); });
 
@@ -170,6 +181,7 @@ void wait_politely(char** argv) {
 
 int main(int argc, char** argv) {
     wait_politely(argv);
+    brisance::exec::flush_denormals();
     std::set_new_handler(out_of_memory);
     try {
         return brisance::main_with_errors(argc, argv);

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <string>
+#include <unistd.h>
 
 namespace brisance {
 
@@ -13,6 +14,12 @@ double available_memory() {
         if (key == "MemAvailable:" && info >> value) return 1024 * value;
     }
     return 1e18;
+}
+
+double resident_memory() {
+    std::ifstream statm("/proc/self/statm");
+    double size = 0, resident = 0;
+    return statm >> size >> resident ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
 }  // namespace brisance

@@ -16,7 +16,7 @@
 
 #include "neighbours/cell_grid.h"
 #include "neighbours/column_pairs.h"
-#include "particles/fluid_body.h"
+#include "particles/mirrored.h"
 #include "particles/solid_body.h"
 
 #include <string>
@@ -83,7 +83,7 @@ struct FluidForces {
 double clearance(const double* ax, const double* ay, const double* az, std::int64_t na, const double* bx, const double* by, const double* bz,
                  std::int64_t nb, double range, double horizon, double z_low, double period);
 
-/// Node to node between two fluids; adds to both force arrays.
+/// Node to node between two fluids, each with its images in its mirrors; adds to both force arrays.
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb);
 
 /// A fluid against the smoothed surface of a solid.

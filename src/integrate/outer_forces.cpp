@@ -83,8 +83,9 @@ void outer_forces(World<R>& w) {
                                     std::max(coarsest(a.surface), coarsest(b.surface)), horizon, w.z_low, w.period);
         }
     }
-    // What comes from here on comes from outside, and its impulse is booked; contact has cancelled.
-    const Vec3<double> inner = total_force(w);
+    // What comes from here on comes from outside, and its impulse is booked; contact has cancelled, but for what came through mirrors.
+    const bool mirrored = std::any_of(w.fluids.begin(), w.fluids.end(), [](const FluidPart& f) { return !f.body.mirrors.empty(); });
+    const Vec3<double> inner = mirrored ? Vec3<double>{} : total_force(w);
     for (FluidPart& f : w.fluids)
         for (const Platen& p : f.platens) add(press(p, f.body, f.forces), f.body.name, "platen");
     for (SolidPart<R>& s : w.solids) {

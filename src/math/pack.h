@@ -110,7 +110,7 @@ template <int step, class V> BRISANCE_INLINE void transpose(V* rows) {
     if constexpr (2 * step < n) transpose<2 * step>(rows);
 }
 #endif
-template <int step, class V, class F> BRISANCE_INLINE V folded(V x, F&& f) {
+template <int step, class V, class F> BRISANCE_INLINE V folded(V x, [[maybe_unused]] F&& f) {
     if constexpr (step == 0) return x;
 #ifndef BRISANCE_CUDA
     else return folded<step / 2>(f(x, exchanged<step>(x)), f);

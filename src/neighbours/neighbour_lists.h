@@ -57,6 +57,13 @@ public:
         for (std::int32_t n = 0; n < count_[k]; n += width) f(list + n);
     }
 
+    /// Neighbours of all entries together.
+    std::int64_t bonds() const {
+        std::int64_t n = 0;
+        for (std::int32_t k : count_) n += k;
+        return n;
+    }
+
 private:
     static constexpr std::size_t chunk = 256;
     alignas(64) static constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};

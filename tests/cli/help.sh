@@ -9,7 +9,7 @@ says out '^brisance [0-9]+\.[0-9]+\.[0-9]+ \([0-9a-f]+(-dirty)?\), |^brisance .*
 expect 0 --help
 says out '^Usage:' 'Exit codes: 0 ok, 2 bad input, 3 .*, 4 .*, 5 interrupted'
 mapfile -t commands < <(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' "$tmp/out")
-for name in run check analyze report view verify materials reference; do
+for name in run resume check analyze report view verify materials material bench reference; do
     [[ " ${commands[*]} " == *" $name "* ]] || wrong "--help does not list $name (it lists: ${commands[*]})"
 done
 for name in "${commands[@]}"; do
@@ -28,4 +28,8 @@ expect 2 verify nonsense
 says err "no verification case 'nonsense'; there are: .*sod"
 expect 0 verify --list
 says out '^sod +fluids +Sod'
+expect 2 bench nonsense
+says err "no measurement 'nonsense'; there are: .*rock"
+expect 0 bench law_jh2 --repeat 1 --threads 1 --json
+says out '"name": "law_jh2".*"threads": 1, "rate": [0-9.e+]+'
 finish

@@ -78,6 +78,42 @@ TEST(Contact, ReactionEqualsActionBetweenFluids) {
         }
 }
 
+TEST(Contact, AMirrorStandsForTheOtherHalf) {
+    // The upper half of two fluids with a mirror at y = 0 feels what it feels with the lower half in place of the mirror.
+    FluidPart half[2] = {disturbed_water({0.2, 4, 4, 4, 0, 0, 0, true}, 0.05, 3), disturbed_water({0.2, 4, 4, 4, -0.7, 0, 0, true}, 0.05, 4)};
+    FluidPart whole[2];
+    for (std::size_t m = 0; m < 2; ++m) {
+        const FluidBody& b = half[m].body;
+        const std::size_t n = b.mass.size();
+        whole[m] = fluid(library("water"), {}, {0.2, 8, 4, 4, 0, 0, 0, true});
+        for (std::size_t i = 0; i < 2 * n; ++i)
+            for (std::size_t a = 0; a < 3; ++a) {
+                const double sign = i >= n && a == 1 ? -1 : 1;
+                whole[m].body.x[a][i] = sign * b.x[a][i % n];
+                whole[m].body.v_now[a][i] = sign * b.v_now[a][i % n];
+            }
+        whole[m].body.rho_now = whole[m].body.rho;
+        whole[m].body.e_now = whole[m].body.e;
+        whole[m].solver.state(whole[m].body, 0);
+        whole[m].forces.begin(whole[m].body);
+        half[m].body.mirrors.push_back({1, 0.0});
+    }
+    const ContactReport of_half = node_contact(half[0].body, half[1].body, {}, half[0].forces, half[1].forces);
+    const ContactReport of_whole = node_contact(whole[0].body, whole[1].body, {}, whole[0].forces, whole[1].forces);
+    EXPECT_NEAR(2 * of_half.stored, of_whole.stored, 1e-12 * of_whole.stored);
+    double across = 0;
+    for (std::size_t m = 0; m < 2; ++m) {
+        const FluidForces &h = half[m].forces, &w = whole[m].forces;
+        for (std::size_t i = 0; i < h.fx.size(); ++i) {
+            EXPECT_NEAR(h.fx[i], w.fx[i], 1e-12);
+            EXPECT_NEAR(h.fy[i], w.fy[i], 1e-12);
+            EXPECT_NEAR(h.fz[i], w.fz[i], 1e-12);
+            across += h.fy[i];
+        }
+    }
+    EXPECT_GT(std::abs(across), 1e-6);  // some of it came through the mirror
+}
+
 TEST(Contact, ReactionEqualsActionAtAWall) {
     for (const bool periodic : {false, true})
         for (const int nz : {1, 2, 8}) {

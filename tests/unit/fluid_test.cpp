@@ -249,6 +249,41 @@ TEST(Fluid, LightingTimes) {
     all([](Vec3<double> x) { return std::min({0.3, 0.5 + norm(x - Vec3<double>{1, 2, 3}) / 6.69, norm(x - Vec3<double>{0, 0, std::clamp(x.z, 0.0, 2.0)}) / 6.69}); });
 }
 
+TEST(Fluid, BurnFractionByTimeByVolumeAndNeverBack) {
+    // F = max(2 D (t - t_lit)/(3 spacing), (1 - V)/(1 - V_CJ)) between 0 and 1; before its time a particle is inert, and pressure goes with F.
+    FluidPart f = fluid(library("petn_1320_cj"), {}, {0.3, 2, 2, 2, 0, 0, 0, false});
+    FluidBody& b = f.body;
+    const double D = 6.69, VCJ = b.material.burn->cj_volume, complete = 1.5 * 0.3 / D;
+    light(b, {Detonator{2, {}, {}, 1.0}});
+    b.rho_now = b.rho;
+    b.e_now = b.e;
+    const auto fraction = [&](double time) {
+        f.solver.state(b, time);
+        return b.burnt[0];
+    };
+    b.rho_now[0] = 1.32 / (1 - 0.6 * (1 - VCJ));
+    EXPECT_EQ(fraction(0.999), 0);  // pressed but not lit
+    EXPECT_EQ(b.pressure[0], 0);
+    EXPECT_NEAR(fraction(1 + 1e-9), 0.6, 1e-7);
+    EXPECT_NEAR(fraction(1 + 0.7 * complete), 0.7, 1e-12);
+    const double partly = b.pressure[0];
+    EXPECT_NEAR(b.burnt[1], 0.7, 1e-12);
+    b.rho_now[0] = 1.32;
+    EXPECT_NEAR(fraction(1 + 0.1 * complete), 0.7, 1e-12);  // never back
+    EXPECT_EQ(fraction(1 + 1.01 * complete), 1);
+    b.rho_now[0] = 1.32 / (1 - 0.6 * (1 - VCJ));
+    EXPECT_EQ(fraction(3), 1);
+    EXPECT_NEAR(partly, 0.7 * b.pressure[0], 1e-12 * partly);
+}
+
+TEST(Fluid, ABurntChargeHasReleasedItsEnergyTimesItsVolume) {
+    World<double> w = world_of(fluid(library("petn_1320_cj"), {}, {0.3, 5, 4, 3, 0, 0, 0, false}));
+    light(w.fluids[0].body, {Detonator{0, {0.1, 0.1, 0.1}, {}, 0.0}});
+    begin(w);
+    run(w, 0.4);
+    EXPECT_NEAR(audit(w).burn_released, 7.38 * 5 * 4 * 3 * 0.3 * 0.3 * 0.3, 1e-12);
+}
+
 TEST(Fluid, SameBitsWithAnyNumberOfThreads) {
     const int before = exec::threads();
     Array<double> x, e;

@@ -120,26 +120,6 @@ BRISANCE_INLINE Pairs<V> pairs(const double* me, const double* records, const st
 
 }  // namespace
 
-void FluidSolver::reflect(const FluidBody& b, double reach) {
-    place_ = b.x;
-    const std::size_t n = b.mass.size();
-    of_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) of_[i] = static_cast<std::int32_t>(i);
-    for (auto& s : sign_) s.assign(n, 1.0);
-    for (const Mirror& m : b.mirrors) {  // one after the other, so that corners are filled by images of images
-        const auto axis = static_cast<std::size_t>(m.axis);
-        const std::size_t standing = of_.size();
-        for (std::size_t i = 0; i < standing; ++i) {
-            if (std::abs(place_[axis][i] - m.at) > reach) continue;
-            for (std::size_t a = 0; a < 3; ++a) {
-                place_[a].push_back(a == axis ? 2 * m.at - place_[a][i] : place_[a][i]);
-                sign_[a].push_back(a == axis ? -sign_[a][i] : sign_[a][i]);
-            }
-            of_.push_back(of_[i]);
-        }
-    }
-}
-
 void FluidSolver::responses(FluidBody& b) {
     using V = Pack<double>;
     const std::int64_t entries = grid_.entries();
@@ -195,17 +175,17 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     double h_max = 0;
     for (double h : b.h) h_max = std::max(h_max, h);
     // Cells of half the largest support: few candidates per particle, and not many cells to look into.
-    reflect(b, 2 * h_max);
-    grid_.build(place_[0].data(), place_[1].data(), place_[2].data(), static_cast<std::int64_t>(of_.size()), std::max(h_max, 1e-9), 2 * h_max, b.z_low, b.period);
+    points_.build(b, 2 * h_max);
+    grid_.build(points_.place(0), points_.place(1), points_.place(2), points_.size(), std::max(h_max, 1e-9), 2 * h_max, b.z_low, b.period);
     const std::int64_t entries = grid_.entries();
     const auto padded = static_cast<std::size_t>(entries + width);
     for (auto* a : {&sx_, &sy_, &sz_, &sh_}) a->resize(padded);
     for (auto* a : {&motion_, &response_}) a->resize(8 * padded);
     exec::for_each(entries, [&](std::int64_t k) {
         const auto s = static_cast<std::size_t>(k), e = static_cast<std::size_t>(grid_.index(k)), i = particle(k);
-        sx_[s] = place_[0][e];
-        sy_[s] = place_[1][e];
-        sz_[s] = place_[2][e] + grid_.shift(k);
+        sx_[s] = points_.place(0)[e];
+        sy_[s] = points_.place(1)[e];
+        sz_[s] = points_.place(2)[e] + grid_.shift(k);
         sh_[s] = b.h[i];
         const double record[8] = {sx_[s], sy_[s], sz_[s], sh_[s], b.mass[i] / b.rho_now[i], sign(k, 0) * b.v_now[0][i], sign(k, 1) * b.v_now[1][i], sign(k, 2) * b.v_now[2][i]};
         std::copy(record, record + 8, &motion_[8 * s]);

@@ -16,7 +16,7 @@
 
 #include "neighbours/neighbour_lists.h"
 #include "particles/body_sums.h"
-#include "particles/fluid_body.h"
+#include "particles/mirrored.h"
 
 namespace brisance {
 
@@ -39,24 +39,22 @@ public:
     /// The same of one particle.
     double stable_rate(const FluidBody& body, std::size_t i) const;
     BodySums sums(const FluidBody& body) const;
+    /// Mean number of neighbours in the last rates().
+    double neighbours_per_particle() const { return static_cast<double>(neighbours_.bonds()) / static_cast<double>(std::max<std::size_t>(correction_.size(), 1)); }
 
 private:
     CellGrid grid_;
     /// First pass: L, the divergence, and with it d rho/dt and q; then (P + q) L of every entry.
     void responses(FluidBody& body);
 
-    /// Places of the particles and, behind them, of their images in the mirrors, as far as `reach` beyond each plane.
-    void reflect(const FluidBody& body, double reach);
     /// Whether an entry of the grid stands for another particle: beyond the period, or beyond a mirror.
     bool image(std::int64_t k) const { return grid_.image(k) || static_cast<std::size_t>(grid_.index(k)) >= correction_.size(); }
     /// The particle that an entry stands for.
-    std::size_t particle(std::int64_t k) const { return static_cast<std::size_t>(of_[static_cast<std::size_t>(grid_.index(k))]); }
+    std::size_t particle(std::int64_t k) const { return points_.particle(static_cast<std::size_t>(grid_.index(k))); }
     /// Signs of a vector's components at an entry: -1 across a mirror.
-    double sign(std::int64_t k, std::size_t axis) const { return sign_[axis][static_cast<std::size_t>(grid_.index(k))]; }
+    double sign(std::int64_t k, std::size_t axis) const { return points_.sign(static_cast<std::size_t>(grid_.index(k)), axis); }
 
-    std::array<Array<double>, 3> place_, sign_;
-    std::vector<std::int32_t> of_;
-
+    Mirrored points_;
     NeighbourLists neighbours_;
     Array<double> sx_, sy_, sz_, sh_;  ///< of the grid's entries
     Array<double> motion_;    ///< records of the entries: x y z h, m/rho, v
