@@ -232,6 +232,18 @@ class Run:
             return {}
 
     @cached_property
+    def parts(self):
+        """Names in the order of the snapshots' `part`: solids first."""
+        names, data = self.case.get("parts", []), self.case.get("part", {})
+        return sorted(names, key=lambda n: data[n]["formulation"] != "total_lagrangian")
+
+    @property
+    def snapshots(self):
+        """The snapshots one after the other (brisance.snapshots.Snapshot); needs h5py."""
+        from brisance.snapshots import load
+        return load(self)
+
+    @cached_property
     def centre(self):
         """x, y of the borehole axis, mm (analysis.axis of the case; 0, 0 when absent)."""
         axis = self.case.get("analysis", {}).get("axis")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads snapshots (VTKHDF 1.0 UnstructuredGrid) and finds a section's particles in them.
+"""Reads snapshots (VTKHDF 1.0 UnstructuredGrid), and finds a section's particles in them.
 
 A particle of a section is recognised by its reference position, Points - displacement. Total-Lagrangian particles keep
 their order, so the search is done once and only checked afterwards.
@@ -25,6 +25,48 @@ def series(run):
     except (ValueError, KeyError, TypeError) as error:
         raise BadRun(f"{path}: not a file series: {error}") from None
     return sorted((t, p) for t, p in found if p.is_file())
+
+
+class Snapshot:
+    """All particles at one time, us. Fields by name, as in docs/output.md, besides `x` (current) and `X` (reference) places [mm].
+
+    Raises BadRun where the file is no snapshot.
+    """
+
+    def __init__(self, path, parts):
+        try:
+            with h5py.File(path, "r") as file:
+                root = file["VTKHDF"]
+                self.time = float(root["FieldData/time"][0])
+                self.fields = {name: np.asarray(data[:], dtype=float if data.dtype.kind == "f" else int) for name, data in root["PointData"].items()}
+                self.units = {name: data.attrs["unit"].decode() for name, data in root["PointData"].items()}
+                self.fields["x"] = np.asarray(root["Points"][:], dtype=float)
+                self.fields["X"] = self.fields["x"] - self.fields["displacement"]
+        except (OSError, KeyError) as error:
+            raise BadRun(f"{path}: cannot be read as a snapshot: {error}") from None
+        self.parts = parts
+
+    def __getitem__(self, name):
+        return self.fields[name]
+
+    def part(self, name):
+        """The same of one part."""
+        if name not in self.parts:
+            raise BadRun(f"there is no part '{name}'; the run has: {', '.join(self.parts)}")
+        return self.where(self.fields["part"] == self.parts.index(name))
+
+    def where(self, mask):
+        """The same of some particles."""
+        only = object.__new__(Snapshot)
+        only.time, only.parts, only.units = self.time, self.parts, self.units
+        only.fields = {key: value[mask] for key, value in self.fields.items()}
+        return only
+
+
+def load(run):
+    """The snapshots of a run one after the other, in order of time."""
+    for _, path in series(run):
+        yield Snapshot(path, run.parts)
 
 
 class SectionFinder:

@@ -11,11 +11,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from brisance.run import BadRun, Run
-from brisance.snapshots import series
+from brisance.snapshots import Snapshot, series
 
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ROOT / "cases" / "verification"
@@ -76,38 +75,6 @@ def order(spacings, errors):
     return float(np.polyfit(np.log(spacings), np.log(np.maximum(np.abs(errors), 1e-300)), 1)[0])
 
 
-class Snapshot:
-    """All particles at one time. Fields by name: `x` (current) and `X` (reference) [mm], and those of docs/output.md."""
-
-    def __init__(self, path, parts):
-        with h5py.File(path, "r") as file:
-            root = file["VTKHDF"]
-            self.time = float(root["FieldData/time"][0])
-            self.fields = {name: np.asarray(data[:], dtype=float if data.dtype.kind == "f" else int) for name, data in root["PointData"].items()}
-            self.fields["x"] = np.asarray(root["Points"][:], dtype=float)
-        self.fields["X"] = self.fields["x"] - self.fields["displacement"]
-        self.parts = parts
-
-    def __getitem__(self, name):
-        return self.fields[name]
-
-    def part(self, name):
-        """The same of one part."""
-        if name not in self.parts:
-            raise BadCase(f"exact.py asks for the part '{name}'; the run has: {', '.join(self.parts)}")
-        only = object.__new__(Snapshot)
-        mask = self.fields["part"] == self.parts.index(name)
-        only.time, only.parts = self.time, self.parts
-        only.fields = {key: value[mask] for key, value in self.fields.items()}
-        return only
-
-    def where(self, mask):
-        only = object.__new__(Snapshot)
-        only.time, only.parts = self.time, self.parts
-        only.fields = {key: value[mask] for key, value in self.fields.items()}
-        return only
-
-
 def number(text):
     """A resolved quantity of case.toml as a float in the program's units, from "0.15 mm", "2 us", "1 km/s", "3 GPa" alone."""
     value, *unit = str(text).split()
@@ -130,13 +97,6 @@ class Shot:
     def case(self):
         return tomllib.loads((self.path / "case.toml").read_text(encoding="utf-8"))
 
-    @cached_property
-    def parts(self):
-        """Names in the order of snapshots: solids first."""
-        names = self.case["parts"]
-        solid = [n for n in names if self.case["part"][n]["formulation"] == "total_lagrangian"]
-        return solid + [n for n in names if n not in solid]
-
     @property
     def spacing(self):
         """mm, of the first part."""
@@ -147,7 +107,7 @@ class Shot:
         return [t for t, _ in series(self.run)]
 
     def snapshot(self, k=-1):
-        return Snapshot(series(self.run)[k][1], self.parts)
+        return Snapshot(series(self.run)[k][1], self.run.parts)
 
     def at(self, time):
         """The snapshot nearest to a time."""

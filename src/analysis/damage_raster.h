@@ -23,7 +23,7 @@ struct DamageRaster {
 
     std::size_t count() const { return nx * ny; }
     double x(std::size_t p) const { return x_0 + pixel * static_cast<double>(p % nx); }
-    double y(std::size_t p) const { return y_0 + pixel * static_cast<double>(p / nx); }
+    double y(std::size_t p) const { return y_0 + pixel * static_cast<double>(p / nx); }  // NOLINT(bugprone-integer-division): the row
     double radius(std::size_t p) const { return std::hypot(x(p), y(p)); }
     /// Whether the pixel at this place is set in a mask of this raster; false outside the picture.
     bool at(const Mask& mask, double x, double y) const;

@@ -127,13 +127,14 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run,
         double inner = 1e300, outer = 0;
         for (const Column& column : b.layout.columns) {
             const double r = std::hypot(column.x - b.axis_x, column.y - b.axis_y);
-            if (column.wall_layer == 0) inner = std::min(inner, r - column.wall_distance);
+            const bool looks_inward = column.wall_normal_x * (column.x - b.axis_x) + column.wall_normal_y * (column.y - b.axis_y) < 0;
+            if (column.wall_layer == 0 && looks_inward) inner = std::min(inner, r - column.wall_distance);
             outer = std::max(outer, r + (column.wall_layer == 0 ? column.wall_distance : 0));
         }
         options_ = section_options(c);
-        options_.specimen = {std::max(inner, 0.0), outer};
+        options_.specimen = {inner < outer ? std::max(inner, 0.0) : 0.0, outer};
         if (3 * options_.specimen.hole_radius >= 0.8 * outer)
-            throw InputError(fmt::format("analysis.part = \"{}\": radial cracks are counted between 3 hole radii and 0.8 of the outer radius; here they are "
+            throw InputError(fmt::format("analysis.part = \"{}\": radial cracks are counted between 3 hole radii and 0.8 of the outer radius; here the radii are "
                                          "{:g} and {:g} mm. Leave the table [analysis] out for so small a body", c.analysis.part, inner, outer));
         for (const SectionData& s : sections_of(c)) {
             Section section{s, {}, {}};

@@ -55,6 +55,18 @@ struct Polygon {
     }
 };
 
+/// Where the way from p, inside, to p + end, outside, leaves the region first, seen from p.
+Vec2 way_out(const Section& section, Vec2 p, Vec2 end, double spacing) {
+    const double length = norm(end);
+    double t = 0;
+    for (int i = 0; i < 100 && t < length; ++i) {  // no wall is nearer than the distance says
+        const double d = -section.distance(p + (t / length) * end);
+        if (d < 1e-6 * spacing) break;
+        t += d;
+    }
+    return (std::min(t, length) / length) * end;
+}
+
 /// Cuts the cell of p at the wall.
 double clip_at_wall(Polygon& cell, const Section& section, Vec2 p, double spacing, const WallView& wall) {
     cell.clip(wall.normal, wall.depth);
@@ -71,8 +83,14 @@ double clip_at_wall(Polygon& cell, const Section& section, Vec2 p, double spacin
             }
         }
         if (!outside) break;
-        const Vec2 n = section.normal(p + corner);
-        cell.clip(n, dot(n, corner) - farthest);
+        Vec2 n = section.normal(p + corner);
+        double offset = dot(n, corner) - farthest;
+        if (offset <= 0) {  // beyond the middle of a slot the wall across is nearer: take the one that the way there meets first
+            const Vec2 first = way_out(section, p, corner, spacing);
+            n = section.normal(p + first);
+            offset = dot(n, first);
+        }
+        cell.clip(n, offset);
     }
     // Between the tangent and the wall, over an edge of the cell from a to b along the tangent, the gap grows as t^2:
     // its integral is (t_b gap_b - t_a gap_a) / 3.

@@ -111,6 +111,8 @@ void begin(World<R>& w) {
         respond(w.ledger, f, w.time, 0);
     }
     for (SolidPart<R>& s : w.solids) {
+        double before_the_start[3] = {0, 0, 0};
+        for (const FixedPlane& p : s.fixed) hold(p, s.body, before_the_start);  // what is fixed has no initial velocity either
         fill_images(s.body.layout, s.body.v);  // neighbours beyond the period move too
         if (s.body.options.pairwise) s.body.v_now = s.body.v;
     }

@@ -57,7 +57,7 @@ public:
     /// Returns the file written. Throws as write_snapshot does.
     template <class Real>
     std::filesystem::path write(double time_us, std::span<const Real> points, std::span<const SnapshotField> fields) {
-        const std::filesystem::path path = folder_ / next_name();
+        std::filesystem::path path = folder_ / next_name();
         write_snapshot(path, time_us, points, fields);
         add(time_us);
         return path;

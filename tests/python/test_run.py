@@ -3,6 +3,8 @@
 
 import json
 import math
+import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(Path(__file__).parent)]
 
 import numpy as np  # noqa: E402
+import brisance  # noqa: E402
 import synthetic_run  # noqa: E402
 from brisance import energy, facts, snapshots, waves  # noqa: E402
 from brisance.run import BadRun, Run, Table, choose_times, section_at  # noqa: E402
@@ -125,6 +128,50 @@ class Runs(unittest.TestCase):
             (Path(folder) / "provenance.json").write_text("{")
             with self.assertRaisesRegex(BadRun, "not valid JSON"):
                 Run(folder)
+
+
+@unittest.skipUnless("BRISANCE" in os.environ, "BRISANCE: the program")
+class ARunOfTheProgram(unittest.TestCase):
+    """The files of one run say the same of the same thing."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        out = Path(cls.folder.name) / "run"
+        subprocess.run([os.environ["BRISANCE"], "run", str(ROOT / "tests/wrong_cases/rock.toml"), "--until", "2 us", "--set", 'output.snapshots=["0 us", "1 us", "2 us"]', "--out", str(out), "--no-report", "--quiet"], check=True, capture_output=True)
+        cls.run_ = brisance.read(out)
+        cls.shots = list(cls.run_.snapshots)
+
+    def test_times_parts_and_numbers(self):
+        self.assertEqual([round(s.time, 9) for s in self.shots], [0, 1, 2])
+        self.assertEqual(self.run_.parts, ["rock", "plate"])
+        for part, number in self.run_.provenance["particles"].items():
+            self.assertEqual(len(self.shots[-1].part(part)["x"]), number)
+        with self.assertRaisesRegex(BadRun, "no part 'water'; the run has: rock, plate"):
+            self.shots[0].part("water")
+
+    def test_energy_and_momentum_of_snapshot_and_audit(self):
+        end, audit = self.shots[-1], self.run_.audit
+        self.assertEqual(audit.units["kinetic"], "J")
+        self.assertLess(np.abs(audit["residual_relative"]).max(), 1e-12)  # also where the initial velocity runs into a plane that is held
+        plate = end.part("plate")
+        mass = plate["density"] * plate["size"] ** 2 * 1.2  # 10 layers in 12 mm
+        self.assertAlmostEqual((mass * plate["internal_energy"]).sum() / audit["internal.plate"][-1], 1, delta=1e-4)
+        self.assertGreater(audit["internal.plate"][-1], 0)
+
+    def test_gauge_is_a_particle_of_the_snapshot(self):
+        gauge, rock = self.run_.gauges[0].table, self.shots[-1].part("rock")
+        nearest = np.argmin(np.linalg.norm(rock["x"] - [gauge[n][-1] for n in "xyz"], axis=1))
+        self.assertLess(np.linalg.norm(rock["x"][nearest] - [gauge[n][-1] for n in "xyz"]), 1e-4)
+        self.assertAlmostEqual(rock["pressure"][nearest] / gauge["pressure"][-1], 1, delta=1e-5)
+        self.assertEqual((gauge.units["pressure"], rock.units["pressure"]), ("GPa", "GPa"))
+
+    def test_damage_of_snapshot_history_and_analysis(self):
+        damaged = (self.shots[-1].part("rock")["damage"] > 0.9).sum() + (self.shots[-1].part("plate")["damage"] > 0.9).sum()
+        self.assertEqual(self.run_.history["damaged.all"][-1], damaged)
+        self.assertEqual(self.run_.analysis["threshold"], 0.9)
+        self.assertEqual(self.run_.case["analysis"]["sectors"], 36)
 
 
 if __name__ == "__main__":

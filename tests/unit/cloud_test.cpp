@@ -43,6 +43,15 @@ CloudOptions uniform(double spacing, std::uint64_t seed = 1) {
     return options;
 }
 
+/// A slot narrower than four spacings that opens to the outside: beyond its middle the wall across is the nearer one.
+Region slotted_disc() {
+    return {[](Vec2 p) { return std::max(norm(p) - 9, -rectangle_distance(p - Vec2{-11.5, 4.9}, 8.5, 0.9)); }, {-9, -9}, {9, 9}};
+}
+double slotted_disc_area() {
+    const auto half = [](double y) { return 0.5 * (y * std::sqrt(81 - y * y) + 81 * std::asin(y / 9)); };  // integral of sqrt(81 - y^2)
+    return 81 * pi - (half(5.8) - half(4) - 3 * 1.8);
+}
+
 struct Example {
     std::string name;
     Region region;
@@ -67,6 +76,7 @@ std::vector<Example> examples() {
          pi * (400 - 3.225 * 3.225), 0.08},
         {"box", rectangle(10, 6), constant(0.5), 240, 0.06},
         {"bar", rectangle(10, 1.5), constant(1), 60, 0.08},
+        {"disc with a slot", slotted_disc(), [](Vec2 p) { return std::min(0.9, 0.6 + 0.1 * std::max(0.0, norm(p) - 3)); }, slotted_disc_area(), 0.12},  // few particles, four corners, a steep grading
         {"plate with two holes", plate_with_holes(), constant(0.5), 600 - 13 * pi, 0.06},
         {"eccentric annulus",
          {[](Vec2 p) { return std::max(norm(p) - 10, 6 - norm(p - Vec2{2.5, 0})); }, {-10, -10}, {10, 10}},
