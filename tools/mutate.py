@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Break the program on purpose, one sign or factor at a time, and see which verification case notices.
 
-    /usr/bin/python3 tools/mutate.py [MUTANT ...] [--folder DIR] [--every] [--list]
+    /usr/bin/python3 tools/mutate.py [MUTANT ...] [--folder DIR] [--every] [--docs] [--list]
 
 The sources are copied to DIR (default build/mutants) and built there; the working tree is not touched. Each mutant is one replacement in one
-file. Cases of the quick lane run until one misses a bound, in the order that the mutant names; with --every all cases of the quick lane run.
+file. Cases of the quick lane run until one misses a bound, in the order that the mutant names; with --every all cases of the quick lane run. With --docs the table goes into docs/verification/mutants.md.
 Exit codes: 0 every mutant was caught, 1 one was not, 2 bad input.
 """
 
@@ -23,12 +23,12 @@ FLUID, FORCES, STRESS = (f"src/formulations/{f}" for f in ("updated_lagrangian/f
 
 # name: what is wrong, file, right text, wrong text, cases to try first
 MUTANTS = {
-    "viscosity_sign": ("pairwise viscosity drives instead of damping", FLUID, "2.0 * mu * (beta * mu - alpha * cm)", "-2.0 * mu * (beta * mu - alpha * cm)",
+    "viscosity_sign": ("pairwise viscosity drives instead of damping", FLUID, "2.0 * mu * (beta * mu - alpha * (0.5", "-2.0 * mu * (beta * mu - alpha * (0.5",
                        ("strong_shock", "sod")),
     "viscous_heat_doubled": ("the missing 1/2 in the energy of a pair", FLUID, "heat -= 0.5 * bracket * wv;", "heat -= bracket * wv;", ("strong_shock", "sod")),
     "pressure_work_halved": ("half of P dV in the energy of a fluid", FLUID, "(b.pressure[i] + q_[i]) / rho * b.rho_rate[i] + hsum(heat)",
                              "0.5 * (b.pressure[i] + q_[i]) / rho * b.rho_rate[i] + hsum(heat)", ("jwl_release", "sod")),
-    "mirror_velocity": ("a mirror image moves as its particle does", FLUID, "svx_[s] = sign(k, 0) * b.v_now[0][i];", "svx_[s] = b.v_now[0][i];", ("water_hugoniot",)),
+    "mirror_velocity": ("a mirror image moves as its particle does", FLUID, "sign(k, 0) * b.v_now[0][i]", "b.v_now[0][i]", ("water_hugoniot",)),
     "lit_early": ("the detonation runs a tenth too fast", FLUID, "d.time + distance / b.material.burn->speed", "d.time + distance / (1.1 * b.material.burn->speed)", ("detonation",)),
     "burn_energy": ("the energy of fluids is 1.1 times what it should be", "src/app/assembly.cpp", "const double e0 = b.material.eos->initial_energy() / b.material.density;",
                     "const double e0 = 1.1 * b.material.eos->initial_energy() / b.material.density;", ("detonation", "jwl_release")),
@@ -40,9 +40,20 @@ MUTANTS = {
     "control_sign": ("the zero-energy control pushes the wrong way", FORCES, "kx += spring * dx;", "kx -= spring * dx;", ("plane_waves", "cavity")),
     "load_inward": ("the pressure on a wall pulls", "src/boundary/boundary.cpp", "load[n] = (-pressure * s.area[i]) * area;", "load[n] = (pressure * s.area[i]) * area;", ("cavity",)),
     "strength_of_compression": ("a particle breaks in compression in place of tension", STRESS, "(one_now > R(rule.tensile) * p.scale)", "(-one_now > R(rule.tensile) * p.scale)", ("spall",)),
-    "no_reaction": ("contact pushes the node and not the wall", "src/contact/contact.cpp", "wall.fx[j] -= w / t.weights * t.fx;", "wall.fx[j] -= 0 * t.fx;", ("rings", "contact_pulse")),
+    "no_reaction": ("contact pushes the node and not the wall", "src/contact/wall_contact.cpp", "wall.fx[j] -= hsum(f.x);", "wall.fx[j] -= 0 * hsum(f.x);", ("rings", "contact_pulse")),
+    "artificial_stress_sign": ("the artificial stress attracts", FLUID, "const V extra = -(r_i", "const V extra = (r_i", ("liquid_under_tension",)),
     "images_at_rest": ("neighbours beyond the period stand still at the start", "src/integrate/step.cpp", "fill_images(s.body.layout, s.body.v);", "", ("rings",)),
 }
+
+
+PAGE = """<!-- SPDX-License-Identifier: Apache-2.0 -->
+# A broken program is caught
+
+A verification that cannot fail shows nothing. `/usr/bin/python3 tools/mutate.py --docs` breaks the program on purpose, one sign or factor at a time, builds it, and runs the quick lane
+until a case misses a bound; this is its table. [All cases](index.md)
+
+| what is wrong | where | caught by (error, bound) |
+|---|---|---|"""
 
 
 def command(*words, **options):
@@ -83,7 +94,7 @@ def verify(folder, tree, case):
         if row["verdict"] == "MISSED":
             return f"{row['quantity']} ({row['run']}: {row['error']:+.2g}, bound {row['bound']:g})"
     for entry in result["failed"]:
-        return f"run {entry['run']} is stopped: {entry['problem'][:60]}"
+        return f"run {entry['run']} is stopped: {entry['problem'].split(' (')[0].split(', held')[0][:80]}"
     return next(f"order of {o['quantity']} ({o['order']:.2f})" for o in result["orders"] if o["verdict"] == "MISSED")
 
 
@@ -92,6 +103,7 @@ def main():
     parser.add_argument("mutants", metavar="MUTANT", nargs="*")
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "mutants")
     parser.add_argument("--every", action="store_true", help="run all cases of the quick lane against each mutant")
+    parser.add_argument("--docs", action="store_true", help="write docs/verification/mutants.md; needs all mutants")
     parser.add_argument("--list", action="store_true", help="name the mutants, build nothing")
     options = parser.parse_args()
     unknown = [m for m in options.mutants if m not in MUTANTS]
@@ -107,7 +119,7 @@ def main():
     sys.path.insert(0, str(ROOT / "python"))
     from brisance.verification import all_cases
     quick = [n for n, c in all_cases().items() if c.of_lane("quick")]
-    escaped = 0
+    escaped, table = 0, []
     for name in chosen:
         what, file, right, wrong, first = MUTANTS[name]
         source = (tree / file).read_text(encoding="utf-8")
@@ -129,8 +141,11 @@ def main():
         finally:
             (tree / file).write_text(source, encoding="utf-8")
         escaped += not caught
+        table.append(f"| {what} | `{file}` | {'; '.join(caught) if caught else '**not caught**'} |")
         print(f"{name:<24} {'caught by ' + '; '.join(caught) if caught else 'NOT CAUGHT'}   [{what}; {time.monotonic() - start:.0f} s]", flush=True)
     print(f"{len(chosen) - escaped} of {len(chosen)} caught")
+    if options.docs and chosen == list(MUTANTS):
+        (ROOT / "docs" / "verification" / "mutants.md").write_text("\n".join([PAGE, *table, ""]), encoding="utf-8")
     return 1 if escaped else 0
 
 

@@ -70,7 +70,7 @@ def index(results, cases):
     lines = [SPDX + "# Verification", "",
              "Every mechanism against an exact answer. `./brisance verify` runs the quick lane, `./brisance verify --lane full` all of it; both write these",
              "pages from the folders in `cases/verification/`, and `./brisance verify --lane full --docs` renews the ones here. A bound is never widened to be met;",
-             "what misses its bound is listed as a known miss, with the reason on its page.", ""]
+             "what misses its bound is listed as a known miss, with the reason on its page. [A broken program is caught](mutants.md): what notices a wrong sign or factor.", ""]
     for key, title in FIELDS.items():
         mine = [r for r in results.values() if r["field"] == key]
         if not mine:

@@ -42,7 +42,9 @@ def run_one(program, case, entry, folder, threads):
         command += ["--set", setting]
     start = time.monotonic()
     done = subprocess.run(command, capture_output=True, text=True)
-    return time.monotonic() - start, "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    said = done.stderr.strip().splitlines()
+    problem = next((line.removeprefix("error: ") for line in said if line.startswith("error: ")), said[-1] if said else f"exit code {done.returncode}")
+    return time.monotonic() - start, "" if done.returncode == 0 else problem
 
 
 def judge(case, lane, shots, problems):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The verification gallery: folders that are whole, judgements that can fail, pages that come from the results, exact solutions that are exact."""
 
+import importlib.util
 import math
 import sys
 import tempfile
@@ -16,6 +17,7 @@ from brisance.exact.cavity import Cavity  # noqa: E402
 from brisance.exact.hugoniot import Gas, Linear, impact  # noqa: E402
 from brisance.exact.jwl import PETN_1770, TNT  # noqa: E402
 from brisance.exact.riemann import Riemann  # noqa: E402
+from brisance.exact.sphere import SphericalCavity  # noqa: E402
 from brisance.verification import CASES, BadCase, all_cases, front, order, read_case, relative  # noqa: E402
 
 
@@ -44,6 +46,18 @@ class Folders(unittest.TestCase):
                 with self.assertRaises(BadCase) as caught:
                     read_case(folder)
                 self.assertIn(words, str(caught.exception))
+
+
+class Mutants(unittest.TestCase):
+    def test_every_mutant_finds_the_text_that_it_breaks(self):
+        spec = importlib.util.spec_from_file_location("mutate", ROOT / "tools" / "mutate.py")
+        mutate = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(mutate)
+        for name, (_, file, right, wrong, cases) in mutate.MUTANTS.items():
+            self.assertEqual((ROOT / file).read_text(encoding="utf-8").count(right), 1, name)
+            self.assertNotEqual(right, wrong)
+            for case in cases:
+                self.assertTrue(read_case(CASES / case).of_lane("quick"), f"{name}: {case}")
 
 
 class FakeShot:
@@ -125,6 +139,13 @@ class ExactSolutions(unittest.TestCase):
         self.assertAlmostEqual(u[1], 0.1 * a / (2 * G), delta=1e-6)       # static: p a/(2 mu)
         u, sr, st, _ = cavity(4 * a, np.array([2]) * a / cavity.c + 3 * a / cavity.c)
         self.assertAlmostEqual(1e3 * st[0], 9.7962, delta=0.002)
+
+    def test_spherical_cavity_under_a_step(self):  # radii in a, times behind the front in a/c, stresses in MPa
+        cavity = SphericalCavity(3.225, 2.66, 25.7, 21.9, lambda t: 0.1).solve(12)
+        for r, t, radial, hoop in ((1, 0.5, -100, 26.4713), (1, 2, -100, 66.1237), (2, 0.5, -31.4933, 3.9823), (2, 4, -11.6924, 6.0532), (4, 2, 2.3856, 2.8381)):
+            _, sr, st = cavity(np.array([r * cavity.a]), (t + r - 1) * cavity.a / cavity.c)
+            self.assertAlmostEqual(1e3 * sr[0], radial, delta=1e-4)
+            self.assertAlmostEqual(1e3 * st[0], hoop, delta=1e-4)
 
     def test_detonation(self):
         V, P, D, u, c = TNT.chapman_jouguet()
