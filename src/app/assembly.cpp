@@ -94,10 +94,10 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
     b.axis_x = c.analysis.axis.x;
     b.axis_y = c.analysis.axis.y;
 
-    b.layout.columns = placement.columns;
+    b.layout.columns.assign(placement.columns.begin(), placement.columns.end());
     b.layout.dz = placement.dz;
     b.layout.periodic = extent.periodic;
-    b.layout.width = lanes<R>;
+    b.layout.width = tile_width<R>;
     b.layout.pad = largest_offset(p.smoothing);
     const std::vector<ShapePtr> later = later_shapes(c, p);
     lay_out(b.layout, [&](const Column& column, int k) {
@@ -107,7 +107,7 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
         return std::none_of(later.begin(), later.end(), [&](const ShapePtr& l) { return l->contains(at); });
     });
     allocate(b);
-    fill_images(b.layout, {b.live.data(), b.stiffness.data()});
+    complete(b);
     s.pairs = find_column_pairs<R>(b.layout, p.smoothing);
 
     const StrengthField field(p.heterogeneity.weibull_modulus, p.heterogeneity.correlation_length, p.heterogeneity.seed,

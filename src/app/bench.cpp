@@ -20,6 +20,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <numeric>
 #include <unistd.h>
 
 namespace brisance {
@@ -81,13 +82,18 @@ Measured loop(const Case& c) {
     return m;
 }
 
-Measured loop(const std::string& file, const BenchOptions& b, Precision precision, double edge) {
+/// A case of cases/bench with as many particles as asked; `edge` of its cube, mm.
+CaseOptions sized(const std::string& file, const BenchOptions& b, double edge) {
     CaseOptions o = bench_case(file);
     if (b.particles > 0) {
         const std::string part = std::filesystem::path(file).stem().string();
         o.settings.push_back(fmt::format("{}.spacing=\"{:.6g} mm\"", part, edge / std::cbrt(b.particles)));
     }
-    const Case c = open_case(o);
+    return o;
+}
+
+Measured loop(const std::string& file, const BenchOptions& b, Precision precision, double edge) {
+    const Case c = open_case(sized(file, b, edge));
     require_memory(c, estimate(c));
     return precision == Precision::single ? loop<float>(c) : loop<double>(c);
 }
@@ -129,17 +135,28 @@ Measured output(const BenchOptions&) {
     return m;
 }
 
+/// Placement of the rock, its columns' pairs included.
+Measured placement(const BenchOptions& b) {
+    const Case c = open_case(sized("bench/rock.toml", b, 24));
+    Measured m;
+    const double spent = seconds_of([&] { m.particles = static_cast<double>(assemble<double>(c, [](const std::string&) {}).solids[0].body.layout.particles); });
+    m.rate = m.particles / spent;
+    return m;
+}
+
+/// All threads at once, each on points of its own.
 Measured law(const std::string& material) {
     const Material m = make_material(read_material(material));
-    Measured found;
-    found.rate = LawBatch(m, 512).updates_per_second(1.0) * exec::threads();
-    return found;
+    std::vector<double> rates(static_cast<std::size_t>(exec::threads()));
+    exec::for_each(exec::threads(), [&](std::int64_t t) { rates[static_cast<std::size_t>(t)] = LawBatch(m, 512).updates_per_second(1.0); }, 1);
+    return {std::accumulate(rates.begin(), rates.end(), 0.0)};
 }
 
 const std::vector<Row>& rows() {
     static const std::vector<Row> all{
         {"bandwidth", "bytes/s, a = b + s c", 0, [](const BenchOptions&) { return Measured{measure_bandwidth()}; }},
-        {"arithmetic", "operations/s in double, multiply-adds in registers", 0, [](const BenchOptions&) { return Measured{measure_arithmetic()}; }},
+        {"arithmetic", "operations/s in double, multiply-adds in registers", 0, [](const BenchOptions&) { return Measured{measure_arithmetic<double>()}; }},
+        {"arithmetic_single", "operations/s in single", 0, [](const BenchOptions&) { return Measured{measure_arithmetic<float>()}; }},
         // stress: u_j - u_i, w times it, sums of both and of z times it: 15; forces: 9 multiply-adds with T, u_j - u_i, the control: 29
         {"rock", "particle-steps/s, JH-2, double", 44, [](const BenchOptions& b) { return loop("bench/rock.toml", b, Precision::double_, 24); }},
         {"rock_single", "particle-steps/s, JH-2, single", 44, [](const BenchOptions& b) { return loop("bench/rock.toml", b, Precision::single, 24); }},
@@ -151,6 +168,7 @@ const std::vector<Row>& rows() {
         {"law_jh2", "updates/s, a third each elastic, yielding, failed", 0, [](const BenchOptions&) { return law("barre_granite"); }},
         {"law_johnson_cook", "updates/s, a third each elastic, yielding, failed", 0, [](const BenchOptions&) { return law("copper_ofhc"); }},
         {"law_hjc", "updates/s, a third each elastic, yielding, failed", 0, [](const BenchOptions&) { return law("concrete_hjc"); }},
+        {"placement", "particles/s placed, with their neighbours", 0, placement},
         {"output", "particles/s into a snapshot", 0, output},
     };
     return all;
@@ -205,7 +223,7 @@ int bench_command(const BenchOptions& o) {
         std::fflush(stdout);
     }
     std::string json;
-    std::vector<double> bandwidth(counts.size()), arithmetic(counts.size());
+    std::vector<double> bandwidth(counts.size()), arithmetic(counts.size()), arithmetic_single(counts.size());
     for (const Row& r : wanted) {
         double alone = 0;
         for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -214,10 +232,12 @@ int bench_command(const BenchOptions& o) {
             const Measured m = median(runs);
             if (r.name == "bandwidth") bandwidth[k] = m.rate;
             if (r.name == "arithmetic") arithmetic[k] = m.rate;
+            if (r.name == "arithmetic_single") arithmetic_single[k] = m.rate;
+            const double ceiling = r.name == "rock_single" ? arithmetic_single[k] : arithmetic[k];
             if (k == 0) alone = m.rate;
             // what must at least move: every byte of a particle in and out once a step
             const double flops = m.rate * r.per_neighbour * m.neighbours, traffic = 2 * m.bytes * m.rate;
-            const double of_arithmetic = arithmetic[k] > 0 ? flops / arithmetic[k] : 0, of_bandwidth = bandwidth[k] > 0 ? traffic / bandwidth[k] : 0;
+            const double of_arithmetic = ceiling > 0 ? flops / ceiling : 0, of_bandwidth = bandwidth[k] > 0 ? traffic / bandwidth[k] : 0;
             json += fmt::format("{}\n  {{\"name\": \"{}\", \"what\": \"{}\", \"threads\": {}, \"rate\": {:.5g}, \"lowest\": {:.5g}, \"highest\": {:.5g}, \"particles\": {:.0f}, \"neighbours\": {:.1f}, "
                                 "\"bytes_per_particle\": {:.0f}, \"operations_per_second\": {:.4g}, \"of_arithmetic\": {:.3f}, \"of_bandwidth\": {:.3f}, \"share\": {:.3f}}}",
                                 json.empty() ? "" : ",", r.name, r.what, counts[k], m.rate,

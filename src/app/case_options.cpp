@@ -3,13 +3,25 @@
 #include "app/commands.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "exec/device.h"
 #include "io/case_file.h"
 
 #include <fmt/format.h>
 
 namespace brisance {
 
+namespace {
+
+void choose_device(const std::string& wanted) {
+    const exec::DeviceInfo d = exec::device_info();
+    if (wanted == "cuda" && !(d.built && d.found)) throw ResourceError("--device cuda: " + d.name);
+    exec::use_device(wanted != "cpu" && d.found);
+}
+
+}  // namespace
+
 Case open_case(const CaseOptions& o) {
+    choose_device(o.device);
     if (o.threads > 0) exec::set_threads(o.threads);
     std::vector<std::string> settings = o.settings;
     if (!o.until.empty()) settings.push_back("run.until=" + o.until);
@@ -22,6 +34,11 @@ void require_memory(const Case& c, const Estimate& e) {
         throw ResourceError(fmt::format("{} does not fit: it needs about {:.3g} GiB for {:.4g} particles, {:.3g} GiB are free. Coarser: --preset or "
                                         "--set rock.spacing=...",
                                         c.file, e.bytes / gibibyte, e.particles, free / gibibyte));
+    const exec::DeviceInfo d = exec::device_info();
+    if (exec::on_device() && e.bytes > d.memory_free)
+        throw ResourceError(fmt::format("{} does not fit on {}: it needs about {:.3g} GiB for {:.4g} particles, {:.3g} GiB are free there. Coarser: --preset or --set "
+                                        "rock.spacing=..., half of it: --set run.precision=single, on the processor: --device cpu",
+                                        c.file, d.name, e.bytes / gibibyte, e.particles, d.memory_free / gibibyte));
 }
 
 }  // namespace brisance

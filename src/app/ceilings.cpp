@@ -2,6 +2,7 @@
 #include "app/ceilings.h"
 
 #include "exec/exec.h"
+#include "exec/memory.h"
 #include "math/pack.h"
 
 #include <algorithm>
@@ -34,15 +35,16 @@ double measure_bandwidth() {
     return 24.0 * static_cast<double>(n) / seconds;
 }
 
+template <class R>
 double measure_arithmetic() {
-    using V = Pack<double>;
+    using V = Pack<R>;
     constexpr int chains = 12, rounds = 2000000;  // enough chains to hide the latency of one
-    Array<double> sink(64 * static_cast<std::size_t>(exec::threads()));
+    Array<R> sink(64 * static_cast<std::size_t>(exec::threads()));
     const double seconds = best_time(5, [&] {
         exec::for_each(exec::threads(), [&](std::int64_t t) {
             V x[chains];
-            for (int k = 0; k < chains; ++k) x[k] = broadcast<V>(1.0 + k);
-            V a = broadcast<V>(0.999999), b = broadcast<V>(1e-6);
+            for (int k = 0; k < chains; ++k) x[k] = broadcast<V>(R(1 + k));
+            V a = broadcast<V>(R(0.999999)), b = broadcast<V>(R(1e-6));
             for (int r = 0; r < rounds; ++r) {
 #if defined(__GNUC__)
                 asm volatile("" : "+x"(a), "+x"(b));  // what the loop multiplies by is not known beforehand
@@ -54,7 +56,10 @@ double measure_arithmetic() {
             sink[64 * static_cast<std::size_t>(t)] = hsum(s);
         }, 1);
     });
-    return 2.0 * chains * rounds * lanes<double> * exec::threads() / seconds;
+    return 2.0 * chains * rounds * lanes<R> * exec::threads() / seconds;
 }
+
+template double measure_arithmetic<double>();
+template double measure_arithmetic<float>();
 
 }  // namespace brisance

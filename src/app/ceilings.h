@@ -6,7 +6,7 @@ namespace brisance {
 
 /// Memory bandwidth of a[i] = b[i] + s c[i] over arrays far larger than the caches, bytes/s; 24 bytes an element are counted, as STREAM does.
 double measure_bandwidth();
-/// Multiply-adds on packs of double that stay in registers, floating-point operations per second (two for each).
-double measure_arithmetic();
+/// Multiply-adds on packs that stay in registers, floating-point operations per second (two for each).
+template <class R> double measure_arithmetic();
 
 }  // namespace brisance

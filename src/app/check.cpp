@@ -3,6 +3,7 @@
 #include "app/assembly.h"
 #include "app/commands.h"
 #include "base/memory.h"
+#include "exec/device.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +21,8 @@ int check_command(const CaseOptions& o) {
         for (const Estimate::Part& p : e.parts)
             parts += fmt::format("{}{{\"name\": \"{}\", \"material\": \"{}\", \"particles\": {:.0f}, \"mass_mg\": {:.6g}, \"bytes\": {:.0f}, \"dt_us\": {:.4g}}}",
                                  parts.empty() ? "" : ", ", p.name, p.material, p.particles, p.mass, p.bytes, p.dt);
-        fmt::print("{{\"parts\": [{}], \"particles\": {:.0f}, \"bytes\": {:.0f}, \"dt_us\": {:.4g}, \"steps\": {:.0f}, \"seconds\": {:.0f}, \"fits\": {}}}\n", parts,
-                   e.particles, e.bytes, e.dt, e.steps, seconds, e.bytes <= memory ? "true" : "false");
+        fmt::print("{{\"parts\": [{}], \"particles\": {:.0f}, \"bytes\": {:.0f}, \"dt_us\": {:.4g}, \"steps\": {:.0f}, \"seconds\": {:.0f}, \"fits\": {}, \"device\": {}}}\n", parts,
+                   e.particles, e.bytes, e.dt, e.steps, seconds, e.bytes <= memory ? "true" : "false", exec::on_device() ? '"' + exec::device_info().name + '"' : "null");
     } else {
         fmt::print("{}{}\n\n", c.title, c.preset.empty() ? "" : " (preset " + c.preset + ")");
         fmt::print("{:<12} {:<18} {:<18} {:>9} {:>9} {:>9} {:>13} {:>12} {:>10} {:>9}\n", "part", "material", "formulation", "spacing", "far", "along z",
@@ -30,6 +31,8 @@ int check_command(const CaseOptions& o) {
             fmt::print("{:<12} {:<18} {:<18} {:>9.3g} {:>9.3g} {:>9.3g} {:>13.0f} {:>12.5g} {:>10.0f} {:>9.2f}\n", p.name, p.material, p.formulation, p.spacing,
                        p.spacing_far, p.spacing_z, p.particles, 1e-3 * p.mass, p.bytes / 1048576, 1e3 * p.dt);
         fmt::print("\n{:.4g} particles, {:.3g} GiB (free: {:.3g} GiB)\n", e.particles, e.bytes / gibibyte, memory / gibibyte);
+        const exec::DeviceInfo d = exec::device_info();
+        if (exec::on_device()) fmt::print("on {}, {:.3g} of {:.3g} GiB free\n", d.name, d.memory_free / gibibyte, d.memory / gibibyte);
         fmt::print("first step {:.2f} ns, {:.0f} short steps to {:g} us; about {} on {} threads\n", 1e3 * e.dt, e.steps, c.until,
                    seconds < 3600 ? fmt::format("{:.0f} min", seconds / 60 + 1) : fmt::format("{:.1f} h", seconds / 3600), exec::threads());
         for (const PartData& p : c.parts)

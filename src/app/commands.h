@@ -19,14 +19,15 @@ struct CaseOptions {
     bool overwrite = false;
     std::string until;
     int threads = 0;      ///< 0: all
+    std::string device = "auto";  ///< auto, cpu, cuda
     bool json = false, quiet = false, report = true;
     int hash_every = 0;   ///< steps between state hashes in the log; 0: none
     std::string command;  ///< the whole command line, for the provenance
 };
 
-/// Sets the threads and reads the case with its preset and settings.
+/// Sets the threads and the device, and reads the case with its preset and settings. Throws ResourceError where there is no such device.
 Case open_case(const CaseOptions& o);
-/// Throws ResourceError where the estimate is above what the machine has free.
+/// Throws ResourceError where the estimate is above what the machine, or the device in use, has free.
 void require_memory(const Case& c, const Estimate& e);
 
 int check_command(const CaseOptions& o);

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "exec/device.h"
 #include "exec/exec.h"
 #include "io/case_file.h"
 
@@ -24,7 +25,8 @@ namespace {
 
 int main_with_errors(int argc, char** argv) {
     CLI::App app{"brisance: how rock breaks under a blast"};
-    app.set_version_flag("--version", fmt::format("brisance {} ({}), {}", version(), commit(), build_features()));
+    const exec::DeviceInfo device = exec::device_info();
+    app.set_version_flag("--version", fmt::format("brisance {} ({}), {}{}", version(), commit(), build_features(), !device.built ? "" : (device.found ? ", device: " : ", no device: ") + device.name));
     app.require_subcommand(1);
     app.footer("Exit codes: 0 ok, 2 bad input, 3 stopped by the physics, 4 memory, disk or permission, 5 interrupted.\n"
                "Start with: brisance run cases/blast/air_copper.toml --preset quick");
@@ -38,6 +40,7 @@ int main_with_errors(int argc, char** argv) {
         c->add_option("--set", o.settings, "key=value, overrides the case: --set rock.spacing=\"0.4 mm\"")->allow_extra_args(false);
         c->add_option("--until", o.until, "end time, for example \"20 us\"");
         c->add_option("--threads", o.threads, "number of threads (default: all)")->check(CLI::Range(1, 4096));
+        c->add_option("--device", o.device, "cpu, cuda, or auto: a GPU where this build and the machine have one")->check(CLI::IsMember({"auto", "cpu", "cuda"}));
     };
     int code = 0;
 
@@ -56,6 +59,7 @@ int main_with_errors(int argc, char** argv) {
     resume->add_option("run", name, "run directory")->required();
     resume->add_option("--until", o.until, "another end time, for example \"200 us\"");
     resume->add_option("--threads", o.threads, "number of threads (default: all)")->check(CLI::Range(1, 4096));
+    resume->add_option("--device", o.device, "cpu, cuda, or auto (default)")->check(CLI::IsMember({"auto", "cpu", "cuda"}));
     resume->add_flag("--older", older, "from the checkpoint before the newest");
     resume->add_flag("--quiet", o.quiet, "warnings only");
     resume->add_flag("!--no-report", o.report, "do not write the report");
@@ -132,7 +136,7 @@ int main_with_errors(int argc, char** argv) {
 
     BenchOptions bench_options;
     CLI::App* bench = app.add_subcommand("bench", "speed of every part of a step on this machine, beside what the machine can do at most");
-    bench->add_option("name", bench_options.names, "rock, rock_single, copper, water, blast, law_jh2, law_johnson_cook, law_hjc, output, bandwidth, arithmetic (default: all)");
+    bench->add_option("name", bench_options.names, "rock, rock_single, copper, water, blast, law_jh2, law_johnson_cook, law_hjc, placement, output, bandwidth, arithmetic, arithmetic_single (default: all)");
     bench->add_option("--threads", bench_options.threads, "from one to so many (default: all)")->check(CLI::Range(1, 4096));
     bench->add_option("--repeat", bench_options.repeat, "runs of each, of which the median counts")->check(CLI::Range(1, 99))->capture_default_str();
     bench->add_option("--particles", bench_options.particles, "size of the loops (default: half a million)")->check(CLI::Range(0.0, 1e10));

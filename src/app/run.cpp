@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/recorder.h"
 #include "base/error.h"
+#include "exec/device.h"
 #include "integrate/watchdog.h"
 #include "io/case_file.h"
 #include "io/log.h"
@@ -51,6 +52,7 @@ Provenance provenance_of(const Case& c, const CaseOptions& o, const Checkpoints:
         p.settings = c.settings;
     }
     p.machine = this_machine(exec::threads());
+    if (exec::on_device()) p.machine.device = exec::device_info().name;
     p.title = c.title;
     return p;
 }

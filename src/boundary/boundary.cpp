@@ -58,6 +58,7 @@ FixedPlane make_fixed_region(const SolidBody<R>& body, const Shape& on, const bo
 
 template <class R>
 void hold(const FixedPlane& plane, SolidBody<R>& body, double impulse[3]) {
+    const exec::HostAccess host;
     for (std::size_t i = 0; i < plane.slots.size(); ++i) {
         const auto slot = static_cast<std::size_t>(plane.slots[i]);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -70,6 +71,7 @@ void hold(const FixedPlane& plane, SolidBody<R>& body, double impulse[3]) {
 }
 
 ContactReport press(const Platen& platen, const FluidBody& b, FluidForces& f) {
+    const exec::HostAccess host;
     const Point n = (1 / norm(platen.normal)) * platen.normal;
     ContactReport report;
     for (std::size_t i = 0; i < b.mass.size(); ++i) {
@@ -102,6 +104,7 @@ SolidPlaten make_solid_platen(const SolidBody<R>& body, const Platen& platen) {
 
 template <class R>
 ContactReport press(SolidPlaten& p, const SolidBody<R>& body) {
+    const exec::HostAccess host;
     const Point n = (1 / norm(p.platen.normal)) * p.platen.normal;
     ContactReport report;
     for (std::size_t i = 0; i < p.slots.size(); ++i) {
@@ -123,6 +126,7 @@ ContactReport press(SolidPlaten& p, const SolidBody<R>& body) {
 
 template <class R>
 void push(const SolidPlaten& p, SolidBody<R>& body, double kick) {
+    const exec::HostAccess host;
     for (std::size_t i = 0; i < p.slots.size(); ++i) {
         const auto slot = static_cast<std::size_t>(p.slots[i]);
         const double f[3] = {p.fx[i], p.fy[i], p.fz[i]};
@@ -154,12 +158,15 @@ WallPressure make_wall_pressure(const SolidBody<R>& body, const Surface& s, cons
 
 template <class R>
 void press(const WallPressure& w, double time, const SolidBody<R>& b, const ColumnPairs<R>& pairs, Surface& s, std::vector<Vec3<double>>& load) {
+    const exec::HostAccess host;
     const double pressure = w.at(time);
+    const SolidView<R> body = view(b);
+    const PairsView<R> bonds = view(pairs);
     load.assign(w.points.size(), {});
     for (std::size_t n = 0; n < w.points.size(); ++n) {
         const std::size_t i = w.points[n];
         const auto c = static_cast<std::size_t>(s.column[i]), slot = static_cast<std::size_t>(s.slot[i]);
-        const Mat3<double> f = deformation_gradient(b, pairs, c, slot);
+        const Mat3<double> f = deformation_gradient(body, bonds, s.column[i], s.slot[i]);
         const double jacobian = det(f);
         const Vec3<double> normal{b.layout.columns[c].wall_normal_x, b.layout.columns[c].wall_normal_y, 0};
         Vec3<double> area = cofactor(f) * normal;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds or loads the parts from outside: fixed planes, rigid platens, prescribed pressure on walls.
+// What holds or loads the parts from outside: fixed planes, rigid platens, prescribed pressure on walls. Few particles, so the processor's.
 #pragma once
 
 #include "contact/contact.h"

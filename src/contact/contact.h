@@ -20,7 +20,6 @@
 #include "particles/solid_body.h"
 
 #include <string>
-#include <vector>
 
 namespace brisance {
 
@@ -31,19 +30,35 @@ struct ContactOptions {
 
 /// The wall of a solid as contact sees it.
 struct Surface {
-    std::vector<std::int64_t> slot;    ///< of the particle behind each surface point
-    std::vector<std::int32_t> column;
-    std::vector<double> x, y, z, nx, ny, nz;      ///< current point on the wall, outward normal
-    std::vector<double> vx, vy, vz;               ///< velocity (of t_n-1/2)
-    std::vector<double> mass, area, spacing, dz;  ///< mg, mm2 (reference), mm
-    std::vector<double> modulus;                  ///< GPa
-    std::vector<double> fx, fy, fz;               ///< contact force of t_n, mN = mg mm/us2
-    std::vector<double> ix, iy, iz;               ///< impulse of the coming kick, mg mm/us
-    std::vector<double> jx, jy, jz;               ///< of a body with long steps: impulse applied ahead of what contact gave, mg mm/us
-    std::vector<double> z_reference;
-    std::vector<double> depth;                    ///< how far behind the wall a node is still pushed back, mm
+    Array<std::int64_t> slot;    ///< of the particle behind each surface point
+    Array<std::int32_t> column;
+    Array<double> x, y, z, nx, ny, nz;      ///< current point on the wall, outward normal
+    Array<double> vx, vy, vz;               ///< velocity (of t_n-1/2)
+    Array<double> mass, area, spacing, dz;  ///< mg, mm2 (reference), mm
+    Array<double> modulus;                  ///< GPa
+    Array<double> fx, fy, fz;               ///< contact force of t_n, mN = mg mm/us2
+    Array<double> ix, iy, iz;               ///< impulse of the coming kick, mg mm/us
+    Array<double> jx, jy, jz;               ///< of a body with long steps: impulse applied ahead of what contact gave, mg mm/us
+    Array<double> z_reference;
+    Array<double> depth;                    ///< how far behind the wall a node is still pushed back, mm
+    double coarsest = 0;                    ///< mm, largest of spacing and dz
     std::size_t size() const { return slot.size(); }
 };
+
+/// A surface as kernels take it.
+struct SurfaceView {
+    const std::int64_t* slot;
+    const std::int32_t* column;
+    double *x, *y, *z, *n[3], *v[3], *mass, *area, *spacing, *dz, *modulus, *f[3], *i[3], *j[3], *z_reference, *depth;
+    std::int64_t size;
+};
+/// Kernels that only read take it too, so that a surface that is constant has one.
+inline SurfaceView view(const Surface& constant) {
+    auto& s = const_cast<Surface&>(constant);
+    return {s.slot.data(), s.column.data(), s.x.data(), s.y.data(), s.z.data(), {s.nx.data(), s.ny.data(), s.nz.data()}, {s.vx.data(), s.vy.data(), s.vz.data()},
+            s.mass.data(), s.area.data(), s.spacing.data(), s.dz.data(), s.modulus.data(), {s.fx.data(), s.fy.data(), s.fz.data()},
+            {s.ix.data(), s.iy.data(), s.iz.data()}, {s.jx.data(), s.jy.data(), s.jz.data()}, s.z_reference.data(), s.depth.data(), static_cast<std::int64_t>(s.size())};
+}
 
 /// The surface points of a body: particles of the first layer at its walls.
 template <class R> Surface make_surface(const SolidBody<R>& body);
@@ -71,8 +86,8 @@ struct ContactReport {
 
 /// Forces on fluid particles: arrays beside a FluidBody.
 struct FluidForces {
-    std::vector<double> fx, fy, fz;          ///< mN
-    std::vector<double> spacing, modulus;    ///< current spacing kappa, mm, and rho c^2, GPa, of each particle
+    Array<double> fx, fy, fz;          ///< mN
+    Array<double> spacing, modulus;    ///< current spacing kappa, mm, and rho c^2, GPa, of each particle
     double largest_spacing = 0;
     /// No forces, and the spacing and stiffness of the present state.
     void begin(const FluidBody& body);

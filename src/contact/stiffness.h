@@ -8,9 +8,9 @@
 namespace brisance {
 
 /// Two springs in a row.
-inline double series(double a, double b) { return a * b / std::max(a + b, 1e-12); }
+BRISANCE_HD inline double series(double a, double b) { return a * b / std::max(a + b, 1e-12); }
 
 /// The hardest spring that the step bears, for a reduced mass; GPa mm.
-inline double hardest(double m_star, const ContactOptions& o) { return o.dt > 0 ? 0.1 * m_star / (o.dt * o.dt) : 0.0; }
+BRISANCE_HD inline double hardest(double m_star, const ContactOptions& o) { return o.dt > 0 ? 0.1 * m_star / (o.dt * o.dt) : 0.0; }
 
 }  // namespace brisance

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/contact.h"
 
+#include "exec/launch.h"
 #include "neighbours/deformation.h"
 
 #include <algorithm>
@@ -28,89 +29,103 @@ Surface make_surface(const SolidBody<R>& b) {
             s.z_reference.push_back(column.z0 + k * b.layout.dz);
         }
     }
+    for (std::size_t i = 0; i < s.size(); ++i) s.coarsest = std::max({s.coarsest, s.spacing[i], s.dz[i]});
     for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz, &s.ix, &s.iy, &s.iz, &s.jx, &s.jy, &s.jz}) a->assign(s.size(), 0);
     return s;
 }
 
+namespace {
+
 template <class R>
-void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs, double ahead) {
-    exec::for_each(static_cast<std::int64_t>(s.size()), [&](std::int64_t i) {
-        const auto p = static_cast<std::size_t>(i), slot = static_cast<std::size_t>(s.slot[p]), c = static_cast<std::size_t>(s.column[p]);
-        const Column& column = b.layout.columns[c];
-        const Mat3<double> f = deformation_gradient(b, pairs, c, slot);
+struct FollowKernel {
+    SurfaceView s;
+    SolidView<R> b;
+    PairsView<R> pairs;
+    double ahead;
+    BRISANCE_HD void operator()(std::int64_t p) const {
+        const std::int64_t slot = s.slot[p];
+        const Column& column = b.columns[s.column[p]];
+        const bool live = b.live[slot] > R(0);
+        const Mat3<double> f = deformation_gradient(b, pairs, s.column[p], slot);
         const Vec3<double> normal{column.wall_normal_x, column.wall_normal_y, 0};
         Vec3<double> n = cofactor(f) * normal;
         double length = norm(n), jacobian = det(f);
-        if (!(b.live[slot] > R(0)) || !(length > 0.2 && length < 5 && jacobian > 0.2 && jacobian < 5) || dot(n, normal) < 0.3 * length) {
+        if (!live || !(length > 0.2 && length < 5 && jacobian > 0.2 && jacobian < 5) || dot(n, normal) < 0.3 * length) {
             n = normal;  // a crushed particle's gradient says nothing of the wall any more
             length = jacobian = 1;
         }
         // A torn particle is no wall: debris in the midst of gas would be pushed from one side only. Its neighbours on the wall cover its place.
-        s.area[p] = b.live[slot] > R(0) ? column.wall_length * b.layout.dz : 0.0;
+        s.area[p] = live ? column.wall_length * b.dz : 0.0;
         const double delta = column.wall_distance * std::clamp(jacobian / length, 0.5, 1.5);
-        s.nx[p] = n.x / length;
-        s.ny[p] = n.y / length;
-        s.nz[p] = n.z / length;
-        s.vx[p] = static_cast<double>(b.v[0][slot]);
-        s.vy[p] = static_cast<double>(b.v[1][slot]);
-        s.vz[p] = static_cast<double>(b.v[2][slot]);
-        s.x[p] = column.x + static_cast<double>(b.u[0][slot]) + ahead * s.vx[p] + delta * s.nx[p];
-        s.y[p] = column.y + static_cast<double>(b.u[1][slot]) + ahead * s.vy[p] + delta * s.ny[p];
-        s.z[p] = s.z_reference[p] + static_cast<double>(b.u[2][slot]) + ahead * s.vz[p] + delta * s.nz[p];
-        s.fx[p] = s.fy[p] = s.fz[p] = 0;
-    }, 256);
-}
-
-void plan(Surface& s, double kick) {
-    for (std::size_t p = 0; p < s.size(); ++p) {
-        // what a long step had foreseen and contact never gave is taken back
-        s.ix[p] = kick * s.fx[p] - s.jx[p];
-        s.iy[p] = kick * s.fy[p] - s.jy[p];
-        s.iz[p] = kick * s.fz[p] - s.jz[p];
-        s.jx[p] = s.jy[p] = s.jz[p] = 0;
-    }
-}
-
-void plan_ahead(Surface& s, double step) {
-    for (std::size_t p = 0; p < s.size(); ++p) {
-        const double x = 0.5 * step * s.fx[p], y = 0.5 * step * s.fy[p], z = 0.5 * step * s.fz[p];
-        s.ix[p] = x - s.jx[p];
-        s.iy[p] = y - s.jy[p];
-        s.iz[p] = z - s.jz[p];
-        s.jx[p] = x;
-        s.jy[p] = y;
-        s.jz[p] = z;
-    }
-}
-
-void give(Surface& s, double kick) {
-    for (std::size_t p = 0; p < s.size(); ++p) {
-        s.jx[p] -= kick * s.fx[p];
-        s.jy[p] -= kick * s.fy[p];
-        s.jz[p] -= kick * s.fz[p];
-    }
-}
-
-template <class R>
-void push(const Surface& s, SolidBody<R>& b, double kick) {
-    for (std::size_t p = 0; p < s.size(); ++p) {
-        const auto slot = static_cast<std::size_t>(s.slot[p]);
-        const double i[3] = {s.ix[p] / s.mass[p], s.iy[p] / s.mass[p], s.iz[p] / s.mass[p]};
-        for (std::size_t k = 0; k < 3; ++k) {
-            b.v[k][slot] += static_cast<R>(i[k]);
-            if (b.options.pairwise) b.acceleration[k][slot] += static_cast<R>(i[k] / kick);
+        const double normal_now[3] = {n.x / length, n.y / length, n.z / length}, at_rest[3] = {column.x, column.y, s.z_reference[p]};
+        double* const place[3] = {s.x, s.y, s.z};
+        for (int k = 0; k < 3; ++k) {
+            s.n[k][p] = normal_now[k];
+            s.v[k][p] = static_cast<double>(b.v[k][slot]);
+            place[k][p] = at_rest[k] + static_cast<double>(b.u[k][slot]) + ahead * s.v[k][p] + delta * normal_now[k];
+            s.f[k][p] = 0;
         }
     }
+};
+
+}  // namespace
+
+template <class R>
+void follow(Surface& s, const SolidBody<R>& b, const ColumnPairs<R>& pairs, double ahead) {
+    exec::launch(static_cast<std::int64_t>(s.size()), FollowKernel<R>{view(s), view(b), view(pairs), ahead}, 256);
+}
+
+void plan(Surface& surface, double kick) {
+    const SurfaceView s = view(surface);
+    exec::launch(s.size, BRISANCE_KERNEL(std::int64_t p) {
+        for (int k = 0; k < 3; ++k) {
+            s.i[k][p] = kick * s.f[k][p] - s.j[k][p];  // what a long step had foreseen and contact never gave is taken back
+            s.j[k][p] = 0;
+        }
+    }, 1024);
+}
+
+void plan_ahead(Surface& surface, double step) {
+    const SurfaceView s = view(surface);
+    exec::launch(s.size, BRISANCE_KERNEL(std::int64_t p) {
+        for (int k = 0; k < 3; ++k) {
+            const double foreseen = 0.5 * step * s.f[k][p];
+            s.i[k][p] = foreseen - s.j[k][p];
+            s.j[k][p] = foreseen;
+        }
+    }, 1024);
+}
+
+void give(Surface& surface, double kick) {
+    const SurfaceView s = view(surface);
+    exec::launch(s.size, BRISANCE_KERNEL(std::int64_t p) {
+        for (int k = 0; k < 3; ++k) s.j[k][p] -= kick * s.f[k][p];
+    }, 1024);
 }
 
 template <class R>
-double half_work(const Surface& s, const SolidBody<R>& b) {
-    double work = 0;
-    for (std::size_t p = 0; p < s.size(); ++p) {
-        const auto slot = static_cast<std::size_t>(s.slot[p]);
-        work += s.ix[p] * static_cast<double>(b.v[0][slot]) + s.iy[p] * static_cast<double>(b.v[1][slot]) + s.iz[p] * static_cast<double>(b.v[2][slot]);
-    }
-    return 0.5 * work;
+void push(const Surface& surface, SolidBody<R>& body, double kick) {
+    const SurfaceView s = view(surface);
+    const SolidView<R> b = view(body);
+    const bool pairwise = body.options.pairwise;
+    exec::launch(s.size, BRISANCE_KERNEL(std::int64_t p) {
+        const std::int64_t slot = s.slot[p];
+        for (int k = 0; k < 3; ++k) {
+            const double gained = s.i[k][p] / s.mass[p];
+            b.v[k][slot] += static_cast<R>(gained);
+            if (pairwise) b.acceleration[k][slot] += static_cast<R>(gained / kick);
+        }
+    }, 1024);
+}
+
+template <class R>
+double half_work(const Surface& surface, const SolidBody<R>& body) {
+    const SurfaceView s = view(surface);
+    const SolidView<R> b = view(body);
+    return 0.5 * exec::launch_sum(s.size, BRISANCE_KERNEL(std::int64_t p) {
+        const std::int64_t slot = s.slot[p];
+        return s.i[0][p] * static_cast<double>(b.v[0][slot]) + s.i[1][p] * static_cast<double>(b.v[1][slot]) + s.i[2][p] * static_cast<double>(b.v[2][slot]);
+    });
 }
 
 template Surface make_surface(const SolidBody<double>&);

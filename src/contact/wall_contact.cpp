@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/stiffness.h"
+#include "exec/launch.h"
 #include "math/kernel.h"
+#include "math/pack.h"
 #include "math/vec.h"
 
 #include <algorithm>
@@ -12,40 +14,55 @@ namespace {
 
 using V = Pack<double>;
 constexpr int width = lanes<double>;
-alignas(64) constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/// The nodes of one side, whatever they belong to.
+/// The nodes of one side: particles of a fluid, or points of another wall.
 struct Nodes {
-    const double *x, *y, *z, *vx, *vy, *vz;
+    const double *x[3], *v[3], *mass, *modulus;
+    const double* kappa;            ///< spacing of a fluid's particles; null for a wall
+    const double *wall_area, *wall_spacing;
+    const double* normal[3];        ///< points of a wall have normals, and touch only walls that face them
+    double* f[3];
     std::int64_t n;
-    // per node
-    std::vector<double> radius, area, length, modulus, mass, hard;
-    const double *nx = nullptr, *ny = nullptr, *nz = nullptr;  ///< surface points have normals, and touch only walls that face them
-    double *fx, *fy, *fz;
+
+    BRISANCE_HD double radius(std::int64_t i) const { return kappa ? 0.5 * kappa[i] : 0.0; }
+    /// Area and length of the spring. A fluid's is so stiff that a gas does not gain volume: overlap = kappa/8 P/(rho c^2).
+    BRISANCE_HD double area(std::int64_t i) const { return kappa ? kappa[i] * kappa[i] : wall_area[i]; }
+    BRISANCE_HD double length(std::int64_t i) const { return kappa ? 0.125 * kappa[i] : wall_spacing[i]; }
+    BRISANCE_HD double hard(std::int64_t i, const ContactOptions& o) const { return kappa ? hardest(mass[i], o) : 0.0; }
 };
 
 /// What node i feels of the wall: force and the normaliser of its weights.
 struct Touch {
-    double fx = 0, fy = 0, fz = 0, weights = 0, stored = 0, overlap = 0;
+    double fx, fy, fz, weights, stored, overlap;
 };
 
 /// Columns of numbers in the order of a grid's entries, with a pack of room behind the last.
 template <int n>
+struct SortedView {
+    double* columns[n];
+    BRISANCE_HD V operator()(int c, std::int64_t k) const { return load<V>(columns[c] + k); }
+};
+template <int n>
 class Sorted {
 public:
-    /// column c of entry k: value(c, k)
-    template <class F>
-    void fill(const CellGrid& grid, F&& value) {
-        const auto entries = static_cast<std::size_t>(grid.entries());
-        for (Array<double>& a : columns_) a.assign(entries + static_cast<std::size_t>(width), 0.0);
-        for (std::size_t k = 0; k < entries; ++k)
-            for (int c = 0; c < n; ++c) columns_[static_cast<std::size_t>(c)][k] = value(c, static_cast<std::int64_t>(k));
+    SortedView<n> room(std::int64_t entries) {
+        SortedView<n> v;
+        for (std::size_t c = 0; c < n; ++c) {
+            make_room(columns_[c], static_cast<std::size_t>(entries + width));
+            v.columns[c] = columns_[c].data();
+        }
+        return v;
     }
-    V operator()(int c, std::int64_t k) const { return load<V>(&columns_[static_cast<std::size_t>(c)][static_cast<std::size_t>(k)]); }
 
 private:
     std::array<Array<double>, n> columns_;
 };
+
+/// Lanes of the pack at q that lie before `last`.
+BRISANCE_HD inline auto before(std::int64_t q, std::int64_t last) {
+    alignas(64) constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    return static_cast<double>(q) + load<V>(lane_number) < static_cast<double>(last);
+}
 
 /// A point of the wall, or a pack of them: place, normal, shape of its kernel, and how far behind it a node is still pushed back.
 struct WallPoint {
@@ -54,7 +71,7 @@ struct WallPoint {
 };
 
 /// omega_ij, 0 out of reach; `gap` is set. `facing`: the product of the two normals, where a node has one.
-inline V weight(const WallPoint& s, const Vec3<V>& node, V radius, V facing, V& gap) {
+BRISANCE_HD inline V weight(const WallPoint& s, const Vec3<V>& node, V radius, V facing, V& gap) {
     const Vec3<V> d = node - s.at;
     gap = dot(d, s.normal);
     const Vec3<V> t = d - gap * s.normal;
@@ -63,64 +80,75 @@ inline V weight(const WallPoint& s, const Vec3<V>& node, V radius, V facing, V& 
     return on ? s.area * kernel::shape(vsqrt(q2)) : V{};
 }
 
-/// The points of a wall inside the box of the nodes, widened by what they reach.
-std::vector<std::int32_t> points_near(const Nodes& nodes, const Surface& wall, double radius) {
+/// The box of some points in the section.
+struct Box {
     double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
-    for (std::int64_t i = 0; i < nodes.n; ++i)
-        for (int k = 0; k < 2; ++k) {
-            const double p = k == 0 ? nodes.x[i] : nodes.y[i];
-            low[k] = std::min(low[k], p);
-            high[k] = std::max(high[k], p);
+    BRISANCE_HD Box& operator+=(const Box& o) {
+        for (int a = 0; a < 2; ++a) {
+            low[a] = std::min(low[a], o.low[a]);
+            high[a] = std::max(high[a], o.high[a]);
         }
-    std::vector<std::int32_t> active;
-    for (std::size_t j = 0; j < wall.size(); ++j) {
-        const double margin = radius + wall.depth[j] + 2 * wall.spacing[j];
-        if (wall.x[j] > low[0] - margin && wall.x[j] < high[0] + margin && wall.y[j] > low[1] - margin && wall.y[j] < high[1] + margin)
-            active.push_back(static_cast<std::int32_t>(j));
+        return *this;
     }
-    return active;
-}
+};
+struct BoxKernel {
+    Nodes nodes;
+    BRISANCE_HD Box operator()(std::int64_t i) const {
+        const double x = nodes.x[0][i], y = nodes.x[1][i];
+        return {{x, y}, {x, y}};
+    }
+};
 
-ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
-    double radius = 0;
-    for (double r : nodes.radius) radius = std::max(radius, r);
-    // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
-    const std::vector<std::int32_t> active = points_near(nodes, wall, radius);
-    if (active.empty()) return {};
+/// Of the points of the wall that nodes can meet.
+struct Extent {
     double coarsest = 0, deepest = 0;
-    std::vector<double> x, y, z;
-    for (std::int32_t j : active) {
-        const auto p = static_cast<std::size_t>(j);
-        coarsest = std::max({coarsest, wall.spacing[p], wall.dz[p]});
-        deepest = std::max(deepest, wall.depth[p]);
-        x.push_back(wall.x[p]);
-        y.push_back(wall.y[p]);
-        z.push_back(wall.z[p]);
+    BRISANCE_HD Extent& operator+=(const Extent& o) {
+        coarsest = std::max(coarsest, o.coarsest);
+        deepest = std::max(deepest, o.deepest);
+        return *this;
     }
-    // tangential reach, and how far in front of or behind the wall a node can be
-    const double reach = 2 * coarsest + std::max(deepest, radius + coarsest);
-    const double near = std::max(deepest, radius) + coarsest;
-    // kept between steps for their memory; contact is not re-entrant
-    static CellGrid walls, points;
-    static Sorted<14> w;
-    static Sorted<10> p;
-    walls.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(active.size()), 0.5 * reach, reach, z_low, period);
-    const std::vector<double>* const of_wall[14] = {&wall.x,     &wall.y,  &wall.z,     &wall.nx,   &wall.ny, &wall.nz, &wall.spacing,
-                                                    &wall.dz,    &wall.depth, &wall.area, &wall.vx,   &wall.vy, &wall.vz, &wall.modulus};
-    w.fill(walls, [&](int c, std::int64_t k) {
-        return (*of_wall[c])[static_cast<std::size_t>(active[static_cast<std::size_t>(walls.index(k))])] + (c == 2 ? walls.shift(k) : 0.0);
-    });
-    const auto before = [](std::int64_t q, std::int64_t last) { return static_cast<double>(q) + load<V>(lane_number) < static_cast<double>(last); };
+};
 
-    std::vector<Touch> touch(static_cast<std::size_t>(nodes.n));
-    exec::for_each(nodes.n, [&](std::int64_t n) {
-        const auto i = static_cast<std::size_t>(n);
-        Touch& t = touch[i];
-        const Vec3<V> at{broadcast<V>(nodes.x[i]), broadcast<V>(nodes.y[i]), broadcast<V>(nodes.z[i])};
-        const double reached = nodes.radius[i];
+/// Row k of the wall's columns: place 0-2, normal 3-5, spacing, dz, depth, area 6-9, velocity 10-12, modulus 13.
+struct WallRows {
+    SurfaceView wall;
+    const std::int32_t* active;
+    CellGridView grid;
+    SortedView<14> rows;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        double row[14] = {};
+        if (k < grid.entries) {
+            const std::int32_t j = active[grid.index[k]];
+            const double now[14] = {wall.x[j],    wall.y[j],       wall.z[j] + grid.shift[k], wall.n[0][j], wall.n[1][j], wall.n[2][j], wall.spacing[j],
+                                    wall.dz[j],   wall.depth[j],   wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j]};
+            for (int c = 0; c < 14; ++c) row[c] = now[c];
+        }
+        for (int c = 0; c < 14; ++c) rows.columns[c][k] = row[c];
+    }
+};
+
+/// The force of the wall on a node.
+struct NodeKernel {
+    Nodes nodes;
+    CellGridView grid;
+    SortedView<14> w;
+    double near, reach;
+    ContactOptions o;
+    Touch* touch;
+
+    BRISANCE_HD void operator()(std::int64_t i) const {
+        Touch t{};
+        feel(i, t);
+        touch[i] = t;
+    }
+
+private:
+    BRISANCE_HD void feel(std::int64_t i, Touch& t) const {
+        const double x = nodes.x[0][i], y = nodes.x[1][i], z = nodes.x[2][i], reached = nodes.radius(i);
+        const Vec3<V> at{broadcast<V>(x), broadcast<V>(y), broadcast<V>(z)};
         // most nodes are far from the wall: is any point of it near, with the node not well in front?
         bool close = false;
-        walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], near, [&](std::int64_t first, std::int64_t last) {
+        grid.ranges(x, y, z, near, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last && !close; q += width) {
                 const Vec3<V> d{at.x - w(0, q), at.y - w(1, q), at.z - w(2, q)};
                 const V ahead = d.x * w(3, q) + d.y * w(4, q) + d.z * w(5, q);
@@ -130,12 +158,12 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         if (!close) return;
         V weights{}, gaps{}, modulus{};
         Vec3<V> normals, velocities;
-        walls.ranges(nodes.x[i], nodes.y[i], nodes.z[i], reach, [&](std::int64_t first, std::int64_t last) {
+        grid.ranges(x, y, z, reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
-                const V facing = nodes.nx ? nodes.nx[i] * s.normal.x + nodes.ny[i] * s.normal.y + nodes.nz[i] * s.normal.z : broadcast<V>(-1.0);
+                const V facing = nodes.normal[0] ? nodes.normal[0][i] * s.normal.x + nodes.normal[1][i] * s.normal.y + nodes.normal[2][i] * s.normal.z : broadcast<V>(-1.0);
                 V gap;
-                const V omega = before(q, last) ? weight(s, at, broadcast<V>(reached), facing, gap) : V{};
+                const V all = weight(s, at, broadcast<V>(reached), facing, gap), omega = before(q, last) ? all : V{};
                 weights += omega;
                 gaps += omega * gap;
                 normals = normals + omega * s.normal;
@@ -152,9 +180,9 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         }
         const Vec3<double> sum{hsum(normals.x), hsum(normals.y), hsum(normals.z)}, normal = (1 / norm(sum)) * sum;
         const Vec3<double> wall_velocity = (1 / t.weights) * Vec3<double>{hsum(velocities.x), hsum(velocities.y), hsum(velocities.z)};
-        const Vec3<double> relative = Vec3<double>{nodes.vx[i], nodes.vy[i], nodes.vz[i]} - wall_velocity;
+        const Vec3<double> relative = Vec3<double>{nodes.v[0][i], nodes.v[1][i], nodes.v[2][i]} - wall_velocity;
         const double approach = dot(relative, normal);
-        const double k = o.stiffness * std::max(series(nodes.modulus[i], hsum(modulus) / t.weights) * nodes.area[i] / nodes.length[i], nodes.hard[i]);
+        const double k = o.stiffness * std::max(series(nodes.modulus[i], hsum(modulus) / t.weights) * nodes.area(i) / nodes.length(i), nodes.hard(i, o));
         const double damping = 2 * o.damping * std::sqrt(k * nodes.mass[i]);
         // progressive up to where the node stands on the wall: k (1 + (overlap/radius)^2), then 2 k
         const double deep = reached > 0 ? std::min(overlap / reached, 1.0) : 0.0, spring = k * overlap * (1 + deep * deep);
@@ -171,83 +199,166 @@ ContactReport against_wall(Nodes& nodes, Surface& wall, const ContactOptions& o,
         const double bent = std::min(overlap, reached);
         t.stored = 0.5 * k * (overlap * overlap * (1 + deep * deep) - 0.5 * deep * deep * bent * bent);
         t.overlap = overlap;
-        nodes.fx[i] += f.x;
-        nodes.fy[i] += f.y;
-        nodes.fz[i] += f.z;
-    });
-
-    ContactReport report;
-    std::vector<std::size_t> touching;
-    for (std::size_t i = 0; i < touch.size(); ++i) {
-        const Touch& t = touch[i];
-        if (!(t.weights > 0)) continue;
-        touching.push_back(i);
-        report.stored += t.stored;
-        report.penetration = std::max(report.penetration, t.overlap);
+        nodes.f[0][i] += f.x;
+        nodes.f[1][i] += f.y;
+        nodes.f[2][i] += f.z;
     }
-    report.touching = static_cast<std::int64_t>(touching.size());
-    if (touching.empty()) return report;
+};
 
-    // Reactions, gathered by the wall's points with the same weights, from the nodes that touch.
-    x.clear();
-    y.clear();
-    z.clear();
-    for (std::size_t i : touching) {
-        x.push_back(nodes.x[i]);
-        y.push_back(nodes.y[i]);
-        z.push_back(nodes.z[i]);
+struct Touched {
+    double stored = 0, overlap = 0;
+    BRISANCE_HD Touched& operator+=(const Touched& other) {
+        stored += other.stored;
+        overlap = std::max(overlap, other.overlap);
+        return *this;
     }
-    points.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(touching.size()), 0.5 * reach, reach, z_low, period);
-    p.fill(points, [&](int c, std::int64_t k) {
-        const std::size_t i = touching[static_cast<std::size_t>(points.index(k))];
-        const Touch& t = touch[i];
-        const bool faces = nodes.nx != nullptr;
-        const double row[10] = {nodes.x[i],          nodes.y[i],          nodes.z[i] + points.shift(k), nodes.radius[i],     faces ? nodes.nx[i] : 0.0,
-                                faces ? nodes.ny[i] : 0.0, faces ? nodes.nz[i] : 0.0, t.fx / t.weights,            t.fy / t.weights, t.fz / t.weights};
-        return row[c];
-    });
-    exec::for_each(static_cast<std::int64_t>(active.size()), [&](std::int64_t m) {
-        const auto j = static_cast<std::size_t>(active[static_cast<std::size_t>(m)]);
+};
+
+/// Row k of the touching nodes' columns: place 0-2, radius 3, normal 4-6, force over the sum of weights 7-9.
+struct NodeRows {
+    Nodes nodes;
+    const std::int32_t* touching;
+    const Touch* touch;
+    CellGridView grid;
+    SortedView<10> rows;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        double row[10] = {};
+        if (k < grid.entries) {
+            const std::int32_t i = touching[grid.index[k]];
+            const Touch& t = touch[i];
+            const bool faces = nodes.normal[0] != nullptr;
+            const double now[10] = {nodes.x[0][i],
+                                    nodes.x[1][i],
+                                    nodes.x[2][i] + grid.shift[k],
+                                    nodes.radius(i),
+                                    faces ? nodes.normal[0][i] : 0.0,
+                                    faces ? nodes.normal[1][i] : 0.0,
+                                    faces ? nodes.normal[2][i] : 0.0,
+                                    t.fx / t.weights,
+                                    t.fy / t.weights,
+                                    t.fz / t.weights};
+            for (int c = 0; c < 10; ++c) row[c] = now[c];
+        }
+        for (int c = 0; c < 10; ++c) rows.columns[c][k] = row[c];
+    }
+};
+
+/// The reaction on a point of the wall, with the weights of the action.
+struct ReactionKernel {
+    SurfaceView wall;
+    const std::int32_t* active;
+    CellGridView grid;
+    SortedView<10> p;
+    double reach;
+    bool faces;
+    BRISANCE_HD void operator()(std::int64_t m) const {
+        const std::int32_t j = active[m];
         const WallPoint s{{broadcast<V>(wall.x[j]), broadcast<V>(wall.y[j]), broadcast<V>(wall.z[j])},
-                          {broadcast<V>(wall.nx[j]), broadcast<V>(wall.ny[j]), broadcast<V>(wall.nz[j])},
+                          {broadcast<V>(wall.n[0][j]), broadcast<V>(wall.n[1][j]), broadcast<V>(wall.n[2][j])},
                           broadcast<V>(wall.spacing[j]), broadcast<V>(wall.dz[j]), broadcast<V>(wall.depth[j]), broadcast<V>(wall.area[j])};
         Vec3<V> f;
-        points.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
+        grid.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
-                const V facing = nodes.nx ? p(4, q) * s.normal.x + p(5, q) * s.normal.y + p(6, q) * s.normal.z : broadcast<V>(-1.0);
+                const V facing = faces ? p(4, q) * s.normal.x + p(5, q) * s.normal.y + p(6, q) * s.normal.z : broadcast<V>(-1.0);
                 V gap;
-                const V omega = before(q, last) ? weight(s, {p(0, q), p(1, q), p(2, q)}, p(3, q), facing, gap) : V{};
+                const V all = weight(s, {p(0, q), p(1, q), p(2, q)}, p(3, q), facing, gap), omega = before(q, last) ? all : V{};
                 f = f + omega * Vec3<V>{p(7, q), p(8, q), p(9, q)};
             }
         });
-        wall.fx[j] -= hsum(f.x);
-        wall.fy[j] -= hsum(f.y);
-        wall.fz[j] -= hsum(f.z);
-    });
+        wall.f[0][j] -= hsum(f.x);
+        wall.f[1][j] -= hsum(f.y);
+        wall.f[2][j] -= hsum(f.z);
+    }
+};
 
+/// Points of a list, as arrays that a grid can be made of.
+class Chosen {
+public:
+    std::int32_t* list(std::int64_t n) {
+        make_room(list_, static_cast<std::size_t>(n));
+        return list_.data();
+    }
+    void build(CellGrid& grid, const double* x, const double* y, const double* z, std::int64_t n, double reach, double z_low, double period) {
+        for (auto* a : {&x_, &y_, &z_}) make_room(*a, static_cast<std::size_t>(n));
+        double *const tx = x_.data(), *const ty = y_.data(), *const tz = z_.data();
+        const std::int32_t* const list = list_.data();
+        exec::launch(n, BRISANCE_KERNEL(std::int64_t k) {
+            tx[k] = x[list[k]];
+            ty[k] = y[list[k]];
+            tz[k] = z[list[k]];
+        }, 1024);
+        grid.build(tx, ty, tz, n, 0.5 * reach, reach, z_low, period);
+    }
+
+private:
+    Array<std::int32_t> list_;
+    Array<double> x_, y_, z_;
+};
+
+ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOptions& o, double z_low, double period) {
+    // kept between steps for their memory; contact is not re-entrant
+    static Chosen active_points, touching_nodes;
+    static CellGrid walls, points;
+    static Sorted<14> wall_columns;
+    static Sorted<10> node_columns;
+    static Array<Touch> touches;
+
+    const SurfaceView wall = view(surface);
+    const double radius = exec::launch_max(nodes.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return nodes.radius(i); });
+    // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
+    const Box box = exec::launch_sum(nodes.n, Box{}, BoxKernel{nodes});
+    std::int32_t* const active = active_points.list(wall.size);
+    const std::int64_t count = exec::select(wall.size, BRISANCE_KERNEL(std::int64_t j) {
+        const double margin = radius + wall.depth[j] + 2 * wall.spacing[j];
+        return wall.x[j] > box.low[0] - margin && wall.x[j] < box.high[0] + margin && wall.y[j] > box.low[1] - margin && wall.y[j] < box.high[1] + margin;
+    }, BRISANCE_KERNEL(std::int64_t j, std::int64_t k) { active[k] = static_cast<std::int32_t>(j); });
+    if (count == 0) return {};
+    const Extent extent = exec::launch_sum(count, Extent{}, BRISANCE_KERNEL(std::int64_t k) {
+        const std::int32_t j = active[k];
+        return Extent{std::max(wall.spacing[j], wall.dz[j]), wall.depth[j]};
+    });
+    // tangential reach, and how far in front of or behind the wall a node can be
+    const double reach = 2 * extent.coarsest + std::max(extent.deepest, radius + extent.coarsest);
+    const double near = std::max(extent.deepest, radius) + extent.coarsest;
+    active_points.build(walls, wall.x, wall.y, wall.z, count, reach, z_low, period);
+    const SortedView<14> w = wall_columns.room(walls.entries());
+    exec::launch(walls.entries() + width, WallRows{wall, active, walls.view(), w}, 1024);
+
+    make_room(touches, static_cast<std::size_t>(nodes.n));
+    Touch* const touch = touches.data();
+    exec::launch(nodes.n, NodeKernel{nodes, walls.view(), w, near, reach, o, touch});
+
+    std::int32_t* const touching = touching_nodes.list(nodes.n);
+    ContactReport report;
+    report.touching = exec::select(nodes.n, BRISANCE_KERNEL(std::int64_t i) { return touch[i].weights > 0; },
+                                   BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { touching[k] = static_cast<std::int32_t>(i); });
+    if (report.touching == 0) return report;
+    const Touched touched = exec::launch_sum(report.touching, Touched{}, BRISANCE_KERNEL(std::int64_t k) {
+        const Touch& t = touch[touching[k]];
+        return Touched{t.stored, t.overlap};
+    });
+    report.stored = touched.stored;
+    report.penetration = touched.overlap;
+
+    touching_nodes.build(points, nodes.x[0], nodes.x[1], nodes.x[2], report.touching, reach, z_low, period);
+    const SortedView<10> p = node_columns.room(points.entries());
+    exec::launch(points.entries() + width, NodeRows{nodes, touching, touch, points.view(), p}, 1024);
+    exec::launch(count, ReactionKernel{wall, active, points.view(), p, reach, nodes.normal[0] != nullptr});
     return report;
 }
 
 }  // namespace
 
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
-    Nodes n{a.x[0].data(), a.x[1].data(), a.x[2].data(), a.v_now[0].data(), a.v_now[1].data(), a.v_now[2].data(), a.size(), {}, {}, {}, {}, {}, {},
-            nullptr, nullptr, nullptr, fa.fx.data(), fa.fy.data(), fa.fz.data()};
-    for (double kappa : fa.spacing) {
-        n.radius.push_back(0.5 * kappa);
-        n.area.push_back(kappa * kappa);
-        n.length.push_back(0.125 * kappa);  // stiff enough that a gas does not gain volume: overlap = kappa/8 P/(rho c^2)
-    }
-    n.modulus = fa.modulus;
-    n.mass.assign(a.mass.begin(), a.mass.end());
-    for (double m : a.mass) n.hard.push_back(hardest(m, o));
+    const FluidView b = view(a);
+    const Nodes n{{b.x[0], b.x[1], b.x[2]}, {b.v_now[0], b.v_now[1], b.v_now[2]}, b.mass, fa.modulus.data(), fa.spacing.data(), nullptr, nullptr, {},
+                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, b.n};
     return against_wall(n, s, o, z_low, period);
 }
 
 ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
-    Nodes n{nodes.x.data(), nodes.y.data(), nodes.z.data(), nodes.vx.data(), nodes.vy.data(), nodes.vz.data(), static_cast<std::int64_t>(nodes.size()),
-            std::vector<double>(nodes.size(), 0.0), nodes.area, nodes.spacing, nodes.modulus, nodes.mass, std::vector<double>(nodes.size(), 0.0),
-            nodes.nx.data(), nodes.ny.data(), nodes.nz.data(), nodes.fx.data(), nodes.fy.data(), nodes.fz.data()};
+    const SurfaceView s = view(nodes);
+    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, s.size};
     return against_wall(n, wall, o, z_low, period);
 }
 

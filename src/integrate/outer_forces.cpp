@@ -1,32 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrate/outer_forces.h"
 
+#include "exec/launch.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace brisance {
 
 namespace {
 
+struct Total {
+    Vec3<double> v;
+    BRISANCE_HD Total& operator+=(const Total& o) {
+        v = v + o.v;
+        return *this;
+    }
+};
+Total total(const double* x, const double* y, const double* z, std::int64_t n) {
+    return exec::launch_sum(n, Total{}, BRISANCE_KERNEL(std::int64_t i) { return Total{{x[i], y[i], z[i]}}; });
+}
+
 /// Sum of the forces on fluids and on walls of solids as they stand.
 template <class R>
 Vec3<double> total_force(const World<R>& w) {
-    Vec3<double> sum;
-    for (const FluidPart& f : w.fluids)
-        for (std::size_t i = 0; i < f.forces.fx.size(); ++i) sum = sum + Vec3<double>{f.forces.fx[i], f.forces.fy[i], f.forces.fz[i]};
-    for (const SolidPart<R>& s : w.solids)
-        for (std::size_t p = 0; p < s.surface.size(); ++p) sum = sum + Vec3<double>{s.surface.fx[p], s.surface.fy[p], s.surface.fz[p]};
-    return sum;
-}
-
-double coarsest(const Surface& s) {
-    double c = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) c = std::max({c, s.spacing[i], s.dz[i]});
-    return c;
+    Total sum;
+    for (const FluidPart& f : w.fluids) sum += total(f.forces.fx.data(), f.forces.fy.data(), f.forces.fz.data(), f.body.size());
+    for (const SolidPart<R>& s : w.solids) {
+        const SurfaceView v = view(s.surface);
+        sum += total(v.f[0], v.f[1], v.f[2], v.size);
+    }
+    return sum.v;
 }
 
 double fastest(const double* x, const double* y, const double* z, std::int64_t n) {
-    return std::sqrt(exec::max(n, 0.0, [&](std::int64_t i) { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; }));
+    return std::sqrt(exec::launch_max(n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; }));
 }
 
 }  // namespace
@@ -72,7 +81,7 @@ void outer_forces(World<R>& w) {
             add(r, a.body.name, w.solids[c.b].body.name);
             if (r.touching == 0)
                 c.clear = clearance(a.body.x[0].data(), a.body.x[1].data(), a.body.x[2].data(), a.body.size(), s.x.data(), s.y.data(), s.z.data(),
-                                    static_cast<std::int64_t>(s.size()), 0.6 * a.forces.largest_spacing + coarsest(s), horizon, w.z_low, w.period);
+                                    static_cast<std::int64_t>(s.size()), 0.6 * a.forces.largest_spacing + s.coarsest, horizon, w.z_low, w.period);
         } else {
             SolidPart<R>&a = w.solids[c.a], &b = w.solids[c.b];
             const ContactReport r = surface_contact(a.surface, b.surface, options, w.z_low, w.period);
@@ -80,7 +89,7 @@ void outer_forces(World<R>& w) {
             if (r.touching == 0)
                 c.clear = clearance(a.surface.x.data(), a.surface.y.data(), a.surface.z.data(), static_cast<std::int64_t>(a.surface.size()), b.surface.x.data(),
                                     b.surface.y.data(), b.surface.z.data(), static_cast<std::int64_t>(b.surface.size()),
-                                    std::max(coarsest(a.surface), coarsest(b.surface)), horizon, w.z_low, w.period);
+                                    std::max(a.surface.coarsest, b.surface.coarsest), horizon, w.z_low, w.period);
         }
     }
     // What comes from here on comes from outside, and its impulse is booked; contact has cancelled, but for what came through mirrors.
@@ -95,10 +104,11 @@ void outer_forces(World<R>& w) {
     w.force_from_outside = total_force(w) - inner;
     for (const FluidPart& f : w.fluids) {
         if (f.body.mirrors.empty()) continue;
-        const FluidBody& b = f.body;
-        double p[3];  // pairs within the part cancel; what is left came through the mirrors
-        for (std::size_t a = 0; a < 3; ++a) p[a] = exec::sum(b.size(), [&](std::int64_t i) { return b.mass[static_cast<std::size_t>(i)] * b.acceleration[a][static_cast<std::size_t>(i)]; });
-        w.force_from_outside = w.force_from_outside + Vec3<double>{p[0], p[1], p[2]};
+        const FluidView b = view(f.body);  // pairs within the part cancel; what is left came through the mirrors
+        const Total p = exec::launch_sum(b.n, Total{}, BRISANCE_KERNEL(std::int64_t i) {
+            return Total{{b.mass[i] * b.acceleration[0][i], b.mass[i] * b.acceleration[1][i], b.mass[i] * b.acceleration[2][i]}};
+        });
+        w.force_from_outside = w.force_from_outside + p.v;
     }
     for (SolidPart<R>& s : w.solids)
         for (SolidPlaten& p : s.platens) add(press(p, s.body), s.body.name, "platen");
@@ -114,6 +124,8 @@ void book_outer_work(World<R>& w, const SolidPart<R>& s, double kick) {
         return fx * static_cast<double>(b.v[0][i]) + fy * static_cast<double>(b.v[1][i]) + fz * static_cast<double>(b.v[2][i]);
     };
     double platens = 0, loads = 0;
+    std::optional<exec::HostAccess> host;
+    if (!s.loads.empty() || !s.platens.empty()) host.emplace();
     for (std::size_t l = 0; l < s.loads.size(); ++l)
         for (std::size_t n = 0; n < s.loads[l].points.size(); ++n) {
             const Vec3<double>& f = s.load_force[l][n];
@@ -121,16 +133,15 @@ void book_outer_work(World<R>& w, const SolidPart<R>& s, double kick) {
         }
     for (const SolidPlaten& p : s.platens)
         for (std::size_t n = 0; n < p.slots.size(); ++n) platens += power(p.slots[n], p.fx[n], p.fy[n], p.fz[n]);
+    host.reset();
     w.ledger.contact_work += half_work(s.surface, b) + half * (platens - loads);
     w.ledger.boundary_work += half * loads;
 }
 
 void book_outer_work(Ledger& ledger, const FluidPart& f, double kick) {
-    const FluidBody& b = f.body;
-    ledger.contact_work += 0.5 * kick * exec::sum(b.size(), [&](std::int64_t k) {
-        const auto i = static_cast<std::size_t>(k);
-        return f.forces.fx[i] * b.v[0][i] + f.forces.fy[i] * b.v[1][i] + f.forces.fz[i] * b.v[2][i];
-    });
+    const FluidView b = view(f.body);
+    const double *const fx = f.forces.fx.data(), *const fy = f.forces.fy.data(), *const fz = f.forces.fz.data();
+    ledger.contact_work += 0.5 * kick * exec::launch_sum(b.n, BRISANCE_KERNEL(std::int64_t i) { return fx[i] * b.v[0][i] + fy[i] * b.v[1][i] + fz[i] * b.v[2][i]; });
 }
 
 template void outer_forces(World<double>&);

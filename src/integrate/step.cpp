@@ -113,7 +113,7 @@ void begin(World<R>& w) {
     for (SolidPart<R>& s : w.solids) {
         double before_the_start[3] = {0, 0, 0};
         for (const FixedPlane& p : s.fixed) hold(p, s.body, before_the_start);  // what is fixed has no initial velocity either
-        fill_images(s.body.layout, s.body.v);  // neighbours beyond the period move too
+        complete(s.body);  // neighbours beyond the period move too
         if (s.body.options.pairwise) s.body.v_now = s.body.v;
     }
     outer_forces(w);
@@ -123,6 +123,7 @@ void begin(World<R>& w) {
 
 template <class R>
 void step(World<R>& w, double until) {
+    const exec::DevicePhase device;
     const double end = w.time + choose_step(w, until);
     const double start = w.time;
     for (SolidPart<R>& s : w.solids)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrate/step_size.h"
 
+#include "exec/launch.h"
 #include "integrate/watchdog.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ template <class R>
 double solid_limit(const World<R>& w, const SolidPart<R>& s) {
     double rate = s.report.rate;
     if (rate == 0) {  // before the first stress pass
+        const exec::HostAccess host;
         double least = s.body.layout.dz;
         for (const Column& c : s.body.layout.columns) least = std::min(least, c.spacing);
         rate = s.body.material.sound_speed() / least;
@@ -38,7 +40,8 @@ double fast_limit(World<R>& w) {
         if (!s.slow) bound(solid_limit(w, s), s.body.name + ": wave");
     for (const FluidPart& f : w.fluids) {
         if (f.rate > 0) bound(w.options.courant_fluid / f.rate, f.body.name + ": wave");
-        const bool burning = f.body.material.burn && std::any_of(f.body.burnt.begin(), f.body.burnt.end(), [](double b) { return b < 1; });
+        const double* const burnt = f.body.burnt.data();
+        const bool burning = f.body.material.burn && exec::launch_max(f.body.size(), -1.0, BRISANCE_KERNEL(std::int64_t i) { return -burnt[i]; }) > -1;
         if (burning) bound(0.25 * f.body.spacing / f.body.material.burn->speed, f.body.name + ": burn");
     }
     if (w.dt_free > 0 && dt > w.options.growth * w.dt_free) {

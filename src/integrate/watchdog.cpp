@@ -122,6 +122,7 @@ void watch(const World<R>& w, const Audit& a, const Leaks& leaks) {
 
 template <class R>
 PhysicsStop collapsed_step(const World<R>& w, double dt) {
+    const exec::HostAccess host;  // the step is under way
     const std::string part = w.limiter.substr(0, w.limiter.find(':'));
     std::string row = "the step of the start";
     for (std::size_t p = 0; p < w.solids.size(); ++p) {
@@ -136,10 +137,7 @@ PhysicsStop collapsed_step(const World<R>& w, double dt) {
     for (std::size_t p = 0; p < w.fluids.size(); ++p) {
         const FluidPart& f = w.fluids[p];
         if (f.body.name != part) continue;
-        std::size_t slot = 0;
-        for (std::size_t i = 1; i < f.body.mass.size(); ++i)
-            if (f.solver.stable_rate(f.body, i) > f.solver.stable_rate(f.body, slot)) slot = i;
-        row = row_of(w, Place{false, p, slot});
+        row = row_of(w, Place{false, p, f.solver.fastest(f.body)});
     }
     return stop(w, fmt::format("the step fell to {:.3g} us (step.minimum = {:.3g} us), held by {},", dt, w.options.minimum, w.limiter), "who holds it", row,
                 "a particle crushed in a contact, a gas layer squeezed to nothing, a law outside of its range",

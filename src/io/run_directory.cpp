@@ -122,7 +122,7 @@ void write_file(const fs::path& path, std::string_view text) {
 }
 
 Machine this_machine(int threads) {
-    Machine machine{"unknown", threads, "unknown"};
+    Machine machine{"unknown", threads, "unknown", ""};
     std::ifstream cpuinfo("/proc/cpuinfo");
     for (std::string line; std::getline(cpuinfo, line);) {
         const auto value = line.find(": ");
@@ -157,8 +157,8 @@ std::string to_json(const Provenance& p) {
         {"command", json_string(p.command)},
         {"started", json_string(p.started)},
         {"finished", p.finished.empty() ? "null" : json_string(p.finished)},
-        {"machine", fmt::format(R"({{"cpu": {}, "threads": {}, "host": {}}})", json_string(p.machine.cpu), p.machine.threads,
-                                json_string(p.machine.host))},
+        {"machine", fmt::format(R"({{"cpu": {}, "threads": {}, "host": {}, "device": {}}})", json_string(p.machine.cpu), p.machine.threads, json_string(p.machine.host),
+                                p.machine.device.empty() ? "null" : json_string(p.machine.device))},
         {"title", json_string(p.title)},
         {"case_file", json_string(p.case_file)},
         {"preset", json_string(p.preset)},

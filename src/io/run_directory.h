@@ -27,6 +27,7 @@ struct Machine {
     std::string cpu;   ///< as the kernel names it, "unknown" where it does not
     int threads = 1;
     std::string host;
+    std::string device;  ///< the card that computes; empty: the processor
 };
 
 /// `threads` is what the run computes with, as the caller has set it.

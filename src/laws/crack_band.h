@@ -29,15 +29,15 @@ struct CrackBand {
 };
 
 /// The widest band that does not snap back: 2 E G_f / sigma_t^2, mm. E, sigma_t in GPa, G_f in J/mm2 (= GPa mm).
-inline double widest_band(double young, double fracture_energy, double strength) { return 2 * young * fracture_energy / (strength * strength); }
+BRISANCE_HD inline double widest_band(double young, double fracture_energy, double strength) { return 2 * young * fracture_energy / (strength * strength); }
 
 /// kappa_u of a place; no less than what keeps the softening 5 % off snap-back.
-inline double full_strain(double fracture_energy, double strength, double width, double young) {
+BRISANCE_HD inline double full_strain(double fracture_energy, double strength, double width, double young) {
     return std::max(2 * fracture_energy / (strength * width), 1.05 * strength / young);
 }
 
 /// s: deviator; damage and opening (volume strain of the crack) are those of the point.
-inline void open_crack(const CrackBand& band, Sym3<double>& s, double& pressure, double& damage, double& opening) {
+BRISANCE_HD inline void open_crack(const CrackBand& band, Sym3<double>& s, double& pressure, double& damage, double& opening) {
     if (opening > 0) {  // closing
         const double all_round = std::max(pressure - principal_axes(s).value[0], 0.0), closed = std::min(opening, all_round / band.bulk);
         opening -= closed;

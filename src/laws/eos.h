@@ -4,10 +4,10 @@
 //   static constexpr const char* name;  static std::vector<ParameterInfo> parameters();
 //   explicit Law(const ParameterSet&);  template <class V> EosTerms<V> terms(V mu) const;
 // and optionally  double initial_energy() const;  double pressure_floor() const;
-// plus one registration line. Sound speed: c^2 = (1/rho_0) [a' + b' E + P b / (1 + mu)^2].
+// plus its name in the list of laws/laws.h. Sound speed: c^2 = (1/rho_0) [a' + b' E + P b / (1 + mu)^2].
 #pragma once
 
-#include "exec/device.h"
+#include "exec/memory.h"
 #include "laws/parameters.h"
 #include "math/pack.h"
 
@@ -41,6 +41,7 @@ public:
     virtual double initial_energy() const = 0;  ///< GPa (per initial volume) at mu = 0
     virtual double pressure_floor() const = 0;  ///< GPa; tension cut-off, -infinity for none
     virtual std::string law() const = 0;
+    virtual const void* object() const = 0;  ///< the law itself, of the type that law() names (laws/laws.h)
 
     double pressure(double mu, double energy) const {
         const double p = eos_pressure(terms(mu), energy);
@@ -76,27 +77,17 @@ public:
         return -std::numeric_limits<double>::infinity();
     }
     std::string law() const override { return Law::name; }
+    const void* object() const override { return &law_; }
 
 private:
     Law law_;
 };
 }  // namespace detail
 
-/// The law over an array of points, for a device.
-template <class Law, class R>
-struct EosKernel {
-    Law law;
-    const R* mu;
-    EosTerms<R>* out;
-    BRISANCE_HD void operator()(std::int64_t i) const { out[i] = law.terms(mu[i]); }
-};
-
-bool add_eos(EosEntry entry);
-template <class Law> bool register_eos() {
-    exec::compile_for_device<EosKernel<Law, double>>();
-    exec::compile_for_device<EosKernel<Law, float>>();
-    return add_eos({Law::name, Law::meaning, Law::parameters(),
-                    [](const ParameterSet& p) -> EosPtr { return std::make_shared<detail::EosOf<Law>>(p); }});
+/// A law's entry, by which it is found in material files.
+template <class Law> EosEntry eos_entry() {
+    return {Law::name, Law::meaning, Law::parameters(),
+            [](const ParameterSet& p) -> EosPtr { return std::allocate_shared<detail::EosOf<Law>>(ConstantAllocator<detail::EosOf<Law>>(), p); }};
 }
 
 }  // namespace brisance

@@ -2,29 +2,26 @@
 #include "laws/material.h"
 
 #include "base/error.h"
+#include "laws/laws.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace brisance {
 
 namespace {
 
-// Function-local statics: registration runs before main, in an order nobody promises.
-std::vector<EosEntry>& eos_registry() {
-    static std::vector<EosEntry> entries;
+template <class... Law> std::vector<EosEntry> entries_of(std::type_identity<std::tuple<Law...>>, EosEntry) { return {eos_entry<Law>()...}; }
+template <class... Law> std::vector<StrengthEntry> entries_of(std::type_identity<std::tuple<Law...>>, StrengthEntry) { return {strength_entry<Law>()...}; }
+
+/// The laws of a list, by name.
+template <class Laws, class Entry> std::vector<Entry> sorted_entries() {
+    std::vector<Entry> entries = entries_of(std::type_identity<Laws>{}, Entry{});
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
     return entries;
-}
-std::vector<StrengthEntry>& strength_registry() {
-    static std::vector<StrengthEntry> entries;
-    return entries;
-}
-template <class Entry> bool insert_sorted(std::vector<Entry>& entries, Entry entry) {
-    entries.insert(std::upper_bound(entries.begin(), entries.end(), entry, [](const Entry& a, const Entry& b) { return a.name < b.name; }),
-                   std::move(entry));
-    return true;
 }
 
 template <class Entry> const Entry& find_law(const std::vector<Entry>& entries, const LawData& data, const std::string& kind) {
@@ -128,10 +125,14 @@ void check_poisson(Material& m, const MaterialData& data) {
 
 }  // namespace
 
-bool add_eos(EosEntry entry) { return insert_sorted(eos_registry(), std::move(entry)); }
-bool add_strength(StrengthEntry entry) { return insert_sorted(strength_registry(), std::move(entry)); }
-const std::vector<EosEntry>& eos_entries() { return eos_registry(); }
-const std::vector<StrengthEntry>& strength_entries() { return strength_registry(); }
+const std::vector<EosEntry>& eos_entries() {
+    static const std::vector<EosEntry> entries = sorted_entries<EosLaws, EosEntry>();
+    return entries;
+}
+const std::vector<StrengthEntry>& strength_entries() {
+    static const std::vector<StrengthEntry> entries = sorted_entries<StrengthLaws, StrengthEntry>();
+    return entries;
+}
 const std::vector<ParameterInfo>& burn_parameters() {
     static const std::vector<ParameterInfo> rows = {{"D", dimension::velocity, "detonation velocity", 0.1, 20},
                                                     {"P_CJ", dimension::pressure, "Chapman-Jouguet pressure", 0.01, 100}};
@@ -171,10 +172,10 @@ Material make_material(const MaterialData& data) {
     m.density = data.density.value;
     const ParameterSet inherited{{"density", data.density}};
 
-    const EosEntry& eos = find_law(eos_registry(), data.eos, "eos");
+    const EosEntry& eos = find_law(eos_entries(), data.eos, "eos");
     m.eos = eos.make(checked(eos.parameters, data.eos, inherited));
     if (data.strength) {
-        const StrengthEntry& law = find_law(strength_registry(), *data.strength, "strength");
+        const StrengthEntry& law = find_law(strength_entries(), *data.strength, "strength");
         m.strength = law.make(checked(law.parameters, *data.strength, inherited), *m.eos, m.density);
         m.remarks = m.strength->remarks();
         for (std::string& r : m.remarks)

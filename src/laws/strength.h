@@ -6,7 +6,7 @@
 //   Law(const ParameterSet&, const Eos&, double density);
 //   double shear_modulus() const;
 //   template <class V> void update(SolidPoint<V>&) const;   scalar code on V, without branches
-// and one registration line. A law knows no neighbour and no formulation.
+// and its name in the list of laws/laws.h. A law knows no neighbour and no formulation.
 #pragma once
 
 #include "laws/eos.h"
@@ -67,6 +67,7 @@ public:
     virtual double shear_modulus() const = 0;
     virtual std::vector<StateInfo> state() const = 0;
     virtual std::string law() const = 0;
+    virtual const void* object() const = 0;  ///< the law itself, of the type that law() names (laws/laws.h)
     /// Remarks on the consistency of the parameters, for the loader.
     virtual std::vector<std::string> remarks() const = 0;
 };
@@ -91,6 +92,7 @@ public:
     double shear_modulus() const override { return law_.shear_modulus(); }
     std::vector<StateInfo> state() const override { return Law::state(); }
     std::string law() const override { return Law::name; }
+    const void* object() const override { return &law_; }
     std::vector<std::string> remarks() const override {
         if constexpr (requires { law_.remarks(); }) return law_.remarks();
         return {};
@@ -101,22 +103,11 @@ private:
 };
 }  // namespace detail
 
-/// The law over an array of points, for a device.
-template <class Law, class R>
-struct StrengthKernel {
-    Law law;
-    SolidPoint<R>* points;
-    BRISANCE_HD void operator()(std::int64_t i) const { law.update(points[i]); }
-};
-
-bool add_strength(StrengthEntry entry);
-template <class Law> bool register_strength() {
-    exec::compile_for_device<StrengthKernel<Law, double>>();
-    exec::compile_for_device<StrengthKernel<Law, float>>();
-    return add_strength({Law::name, Law::meaning, Law::parameters(), Law::state(),
-                         [](const ParameterSet& p, const Eos& eos, double density) -> StrengthPtr {
-                             return std::make_shared<detail::StrengthOf<Law>>(p, eos, density);
-                         }});
+/// A law's entry, by which it is found in material files.
+template <class Law> StrengthEntry strength_entry() {
+    return {Law::name, Law::meaning, Law::parameters(), Law::state(), [](const ParameterSet& p, const Eos& eos, double density) -> StrengthPtr {
+                return std::allocate_shared<detail::StrengthOf<Law>>(ConstantAllocator<detail::StrengthOf<Law>>(), p, eos, density);
+            }};
 }
 
 }  // namespace brisance

@@ -13,7 +13,7 @@ struct PrincipalAxes {
     Vec3<double> axis[3];    ///< unit vectors
 };
 
-inline PrincipalAxes principal_axes(const Sym3<double>& s) {
+BRISANCE_HD inline PrincipalAxes principal_axes(const Sym3<double>& s) {
     double a[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}, v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     constexpr int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     for (int sweep = 0; sweep < 12; ++sweep)

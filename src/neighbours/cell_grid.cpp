@@ -1,70 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "neighbours/cell_grid.h"
 
+#include "exec/launch.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace brisance {
 
-void CellGrid::build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period) {
-    raw_index_.clear();
-    raw_shift_.clear();
-    for (std::int64_t i = 0; i < n; ++i) {
-        raw_index_.push_back(static_cast<std::int32_t>(i));
-        raw_shift_.push_back(0);
+namespace {
+
+/// Points before they are sorted: the points themselves, or where there is a period those and their images.
+struct Raw {
+    const double *x, *y, *z;
+    const std::int32_t* index;  ///< null: entry k is point k
+    const double* shift;
+    BRISANCE_HD std::int32_t point(std::int64_t k) const { return index ? index[k] : static_cast<std::int32_t>(k); }
+    BRISANCE_HD double shifted(std::int64_t k) const { return shift ? shift[k] : 0.0; }
+};
+
+struct Box {
+    double min[3] = {1e300, 1e300, 1e300}, max[3] = {-1e300, -1e300, -1e300};
+    BRISANCE_HD Box& operator+=(const Box& o) {
+        for (int a = 0; a < 3; ++a) {
+            min[a] = o.min[a] < min[a] ? o.min[a] : min[a];
+            max[a] = o.max[a] > max[a] ? o.max[a] : max[a];
+        }
+        return *this;
     }
+};
+struct BoxKernel {
+    Raw raw;
+    BRISANCE_HD Box operator()(std::int64_t k) const {
+        const std::int32_t i = raw.point(k);
+        const double p[3] = {raw.x[i], raw.y[i], raw.z[i] + raw.shifted(k)};
+        Box b;
+        for (int a = 0; a < 3; ++a) b.min[a] = b.max[a] = p[a];
+        return b;
+    }
+};
+
+struct CellKernel {
+    Raw raw;
+    CellGridView grid;
+    std::int32_t* cell_of;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        const std::int32_t i = raw.point(k);
+        const int cx = grid.place(raw.x[i], 0), cy = grid.place(raw.y[i], 1), cz = grid.place(raw.z[i] + raw.shifted(k), 2);
+        cell_of[k] = static_cast<std::int32_t>((static_cast<std::int64_t>(cz) * grid.n[1] + cy) * grid.n[0] + cx);
+    }
+};
+
+}  // namespace
+
+void CellGrid::build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period) {
+    Raw raw{x, y, z, nullptr, nullptr};
+    std::int64_t entries = n;
     if (period > 0) {
         const int images = 1 + static_cast<int>(reach / period);
-        for (int s = -images; s <= images; ++s) {
-            if (s == 0) continue;
-            for (std::int64_t i = 0; i < n; ++i) {
-                const double zi = z[i] + s * period;
-                if (zi < z_low - reach || zi > z_low + period + reach) continue;
-                raw_index_.push_back(static_cast<std::int32_t>(i));
-                raw_shift_.push_back(s * period);
+        for (std::int64_t room = n + n / 2 + 64;; room = entries) {  // more than enough, or what the first try has counted
+            make_room(raw_index_, static_cast<std::size_t>(room));
+            make_room(raw_shift_, static_cast<std::size_t>(room));
+            std::int32_t* const index = raw_index_.data();
+            double* const shift = raw_shift_.data();
+            room = static_cast<std::int64_t>(std::min(raw_index_.size(), raw_shift_.size()));
+            exec::launch(n, BRISANCE_KERNEL(std::int64_t i) {
+                index[i] = static_cast<std::int32_t>(i);
+                shift[i] = 0;
+            }, 1024);
+            entries = n;
+            for (int s = -images; s <= images; ++s) {
+                if (s == 0) continue;
+                const double by = s * period;
+                const std::int64_t ahead = entries;
+                entries += exec::select(n, BRISANCE_KERNEL(std::int64_t i) {
+                    const double zi = z[i] + by;
+                    return !(zi < z_low - reach || zi > z_low + period + reach);
+                }, BRISANCE_KERNEL(std::int64_t i, std::int64_t k) {
+                    if (ahead + k >= room) return;
+                    index[ahead + k] = static_cast<std::int32_t>(i);
+                    shift[ahead + k] = by;
+                });
             }
+            if (entries <= room) break;
         }
+        raw.index = raw_index_.data();
+        raw.shift = raw_shift_.data();
     }
-    const std::size_t entries = raw_index_.size();
-    std::array<double, 3> max{-1e300, -1e300, -1e300};
-    min_ = {1e300, 1e300, 1e300};
-    for (std::size_t k = 0; k < entries; ++k) {
-        const auto i = static_cast<std::size_t>(raw_index_[k]);
-        const double p[3] = {x[i], y[i], z[i] + raw_shift_[k]};
-        for (std::size_t a = 0; a < 3; ++a) {
-            min_[a] = std::min(min_[a], p[a]);
-            max[a] = std::max(max[a], p[a]);
-        }
-    }
+    const Box box = exec::launch_sum(entries, Box{}, BoxKernel{raw});
+    CellGridView& g = view_;
+    g.entries = entries;
     // A particle flung far out must not cost memory: cells grow until there are at most some per entry.
-    cell_ = cell;
+    g.cell = cell;
     double count = 0;
     for (;;) {
         count = 1;
-        for (std::size_t a = 0; a < 3; ++a) {
-            n_[a] = entries == 0 ? 1 : 1 + static_cast<int>(std::min((max[a] - min_[a]) / cell_, 1e6));
-            count *= n_[a];
+        for (int a = 0; a < 3; ++a) {
+            g.min[a] = box.min[a];
+            g.n[a] = entries == 0 ? 1 : 1 + static_cast<int>(std::min((box.max[a] - box.min[a]) / g.cell, 1e6));
+            count *= g.n[a];
         }
         if (count <= 64.0 * static_cast<double>(entries) + 4096) break;
-        cell_ *= 1.5;
+        g.cell *= 1.5;
     }
-    begin_.assign(static_cast<std::size_t>(count) + 1, 0);
-    cell_of_.resize(entries);
-    for (std::size_t k = 0; k < entries; ++k) {
-        const auto i = static_cast<std::size_t>(raw_index_[k]);
-        const int cx = clamp(x[i], 0), cy = clamp(y[i], 1), cz = clamp(z[i] + raw_shift_[k], 2);
-        cell_of_[k] = static_cast<std::int32_t>((static_cast<std::int64_t>(cz) * n_[1] + cy) * n_[0] + cx);
-        ++begin_[static_cast<std::size_t>(cell_of_[k]) + 1];
-    }
-    for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-    index_.resize(entries);
-    shift_.resize(entries);
-    std::vector<std::int64_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t k = 0; k < entries; ++k) {
-        const auto slot = static_cast<std::size_t>(next[static_cast<std::size_t>(cell_of_[k])]++);
-        index_[slot] = raw_index_[k];
-        shift_[slot] = raw_shift_[k];
-    }
+    const auto size = static_cast<std::size_t>(entries);
+    make_room(begin_, static_cast<std::size_t>(count) + 1);
+    for (auto* a : {&cell_of_, &order_, &index_}) make_room(*a, size);
+    make_room(shift_, size);
+    exec::launch(entries, CellKernel{raw, g, cell_of_.data()}, 1024);
+    exec::bucket_sort(cell_of_.data(), entries, static_cast<std::int64_t>(count), order_.data(), begin_.data());
+    const std::int32_t* const order = order_.data();
+    std::int32_t* const index = index_.data();
+    double* const shift = shift_.data();
+    exec::launch(entries, BRISANCE_KERNEL(std::int64_t k) {
+        index[k] = raw.point(order[k]);
+        shift[k] = raw.shifted(order[k]);
+    }, 1024);
+    g.begin = begin_.data();
+    g.index = index;
+    g.shift = shift;
 }
 
 }  // namespace brisance

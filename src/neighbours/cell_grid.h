@@ -3,51 +3,62 @@
 // order of their numbers. Cells along x are contiguous, so a row of cells is one range of points.
 #pragma once
 
-#include "exec/exec.h"
+#include "base/hd.h"
+#include "exec/memory.h"
 
-#include <array>
 #include <cstdint>
 
 namespace brisance {
 
-class CellGrid {
-public:
-    /// Sorts n points. `cell` is the edge of a cell, mm. Where `period` > 0 the points are periodic in z from z_low on, and images
-    /// within `reach` of the period's ends are added: entry k stands for point index(k), shifted by shift(k) along z.
-    void build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low = 0, double period = 0);
+/// The grid as kernels take it: entry k stands for point index[k], shifted by shift[k] along z.
+struct CellGridView {
+    double cell = 1, min[3] = {0, 0, 0};
+    int n[3] = {1, 1, 1};
+    std::int64_t entries = 0;
+    const std::int64_t* begin = nullptr;
+    const std::int32_t* index = nullptr;
+    const double* shift = nullptr;
 
-    std::int64_t entries() const { return static_cast<std::int64_t>(index_.size()); }
-    std::int64_t index(std::int64_t k) const { return index_[static_cast<std::size_t>(k)]; }
-    double shift(std::int64_t k) const { return shift_[static_cast<std::size_t>(k)]; }
-    bool image(std::int64_t k) const { return shift_[static_cast<std::size_t>(k)] != 0; }
-
+    BRISANCE_HD int place(double p, int axis) const {
+        const double q = (p - min[axis]) / cell;
+        if (!(q > 0)) return 0;
+        return q >= n[axis] ? n[axis] - 1 : static_cast<int>(q);
+    }
     /// Calls f(first, last) for ranges of entries [first, last) that together hold all entries within `reach` of (x, y, z),
     /// in a fixed order.
     template <class F>
-    void ranges(double x, double y, double z, double reach, F&& f) const {
-        if (index_.empty()) return;
-        const int i0 = clamp(x - reach, 0), i1 = clamp(x + reach, 0), j0 = clamp(y - reach, 1), j1 = clamp(y + reach, 1),
-                  k0 = clamp(z - reach, 2), k1 = clamp(z + reach, 2);
+    BRISANCE_HD void ranges(double x, double y, double z, double reach, F&& f) const {
+        if (entries == 0) return;
+        const int i0 = place(x - reach, 0), i1 = place(x + reach, 0), j0 = place(y - reach, 1), j1 = place(y + reach, 1), k0 = place(z - reach, 2), k1 = place(z + reach, 2);
         for (int k = k0; k <= k1; ++k)
             for (int j = j0; j <= j1; ++j) {
-                const std::int64_t row = (static_cast<std::int64_t>(k) * n_[1] + j) * n_[0];
-                const std::int64_t first = begin_[static_cast<std::size_t>(row + i0)], last = begin_[static_cast<std::size_t>(row + i1 + 1)];
+                const std::int64_t row = (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
+                const std::int64_t first = begin[row + i0], last = begin[row + i1 + 1];
                 if (first < last) f(first, last);
             }
     }
+};
+
+class CellGrid {
+public:
+    /// Sorts n points. `cell` is the edge of a cell, mm. Where `period` > 0 the points are periodic in z from z_low on, and images
+    /// within `reach` of the period's ends are added.
+    void build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low = 0, double period = 0);
+
+    std::int64_t entries() const { return view_.entries; }
+    const CellGridView& view() const { return view_; }
+    // for the processor
+    std::int64_t index(std::int64_t k) const { return view_.index[k]; }
+    double shift(std::int64_t k) const { return view_.shift[k]; }
+    bool image(std::int64_t k) const { return view_.shift[k] != 0; }
+    template <class F>
+    void ranges(double x, double y, double z, double reach, F&& f) const { view_.ranges(x, y, z, reach, static_cast<F&&>(f)); }
 
 private:
-    int clamp(double p, std::size_t axis) const {
-        const double q = (p - min_[axis]) / cell_;
-        if (!(q > 0)) return 0;
-        return q >= n_[axis] ? n_[axis] - 1 : static_cast<int>(q);
-    }
-    double cell_ = 1;
-    std::array<double, 3> min_{};
-    std::array<int, 3> n_{1, 1, 1};
-    std::vector<std::int64_t> begin_;
-    std::vector<std::int32_t> index_, cell_of_, raw_index_;
-    std::vector<double> shift_, raw_shift_;
+    CellGridView view_;
+    Array<std::int64_t> begin_;
+    Array<std::int32_t> index_, order_, cell_of_, raw_index_;
+    Array<double> shift_, raw_shift_;
 };
 
 }  // namespace brisance

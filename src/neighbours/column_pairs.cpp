@@ -14,7 +14,7 @@ namespace {
 /// Columns by square cell of the section.
 class SectionGrid {
 public:
-    SectionGrid(const std::vector<Column>& columns, double cell) : cell_(cell) {
+    SectionGrid(const Array<Column>& columns, double cell) : cell_(cell) {
         min_x_ = min_y_ = 1e300;
         double max_x = -1e300, max_y = -1e300;
         for (const Column& c : columns) {
@@ -49,7 +49,7 @@ int largest_offset(double smoothing) { return static_cast<int>(std::ceil(2 * smo
 
 template <class R>
 ColumnPairs<R> find_column_pairs(Columns& body, double smoothing) {
-    const std::vector<Column>& columns = body.columns;
+    const Array<Column>& columns = body.columns;
     const double h_z = smoothing * body.dz;
     double largest = 0;
     for (const Column& c : columns) largest = std::max(largest, c.spacing);

@@ -22,12 +22,12 @@ struct ColumnPair {
 
 template <class R>
 struct ColumnPairs {
-    std::vector<std::int64_t> begin;  ///< pairs of column c: begin[c] ... begin[c+1]-1
-    std::vector<ColumnPair<R>> pairs;
+    Array<std::int64_t> begin;  ///< pairs of column c: begin[c] ... begin[c+1]-1
+    Array<ColumnPair<R>> pairs;
     Array<R> w;                       ///< 1/mm2 (volume folded in)
     // of a column whose neighbours are all there:
-    std::vector<double> k_inverse;    ///< 6 per column: xx yy zz xy xz yz
-    std::vector<double> g_sum;        ///< 3 per column: sum of w xi, 1/mm
+    Array<double> k_inverse;    ///< 6 per column: xx yy zz xy xz yz
+    Array<double> g_sum;        ///< 3 per column: sum of w xi, 1/mm
     double bonds_per_particle = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/hd.h"
+
 #include <cstdint>
 
 namespace brisance {
@@ -13,7 +15,7 @@ struct BodySums {
     double px = 0, py = 0, pz = 0;
     double mass = 0;      ///< mg
     std::int64_t damaged = 0;
-    BodySums& operator+=(const BodySums& o) {
+    BRISANCE_HD BodySums& operator+=(const BodySums& o) {
         kinetic += o.kinetic;
         internal += o.internal;
         unburnt += o.unburnt;

@@ -3,7 +3,8 @@
 // along z. The neighbour of a particle is found by arithmetic, for ever.
 #pragma once
 
-#include "exec/exec.h"
+#include "exec/memory.h"
+#include "math/pack.h"
 
 #include <cstdint>
 #include <string>
@@ -25,7 +26,7 @@ struct Column {
     int wall_layer = -1;                   ///< 0: first layer at a wall; -1: inside
 };
 
-/// `width` consecutive slots of one column: the unit of work, one SIMD pack.
+/// `width` consecutive slots of one column: one SIMD pack, or several.
 struct Tile {
     std::int64_t base = 0;
     std::int32_t column = 0;
@@ -38,10 +39,13 @@ enum SlotFlag : std::uint8_t {
     slot_low = 4, slot_high = 8,  ///< first and last particle of its column
 };
 
+/// Lanes of a tile: those of a pack; where a pack is one number, as many as fill the sectors that a warp loads.
+template <class R> inline constexpr int tile_width = lanes<R> == 1 ? 8 : lanes<R>;
+
 /// The layout of a body: columns, padded such that the neighbours of every lane of every tile are valid slots.
 struct Columns {
-    std::vector<Column> columns;
-    std::vector<Tile> tiles;
+    Array<Column> columns;
+    Array<Tile> tiles;
     Array<std::uint8_t> flags;  ///< by slot
     double dz = 0;              ///< mm
     bool periodic = false;      ///< layers repeat with period layers * dz (all columns alike)

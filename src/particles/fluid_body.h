@@ -4,7 +4,8 @@
 // Times: x at t_n; v, rho, e at t_n-1/2 before the kick and t_n+1/2 after it; the *_now columns extrapolate them to t_n.
 #pragma once
 
-#include "exec/exec.h"
+#include "base/hd.h"
+#include "exec/memory.h"
 #include "laws/material.h"
 
 #include <array>
@@ -50,6 +51,46 @@ struct FluidBody {
     std::int64_t size() const { return static_cast<std::int64_t>(mass.size()); }
     double current_spacing(std::size_t i) const { return std::cbrt(mass[i] / rho_now[i]); }
 };
+
+/// A body as kernels take it: bare pointers by particle.
+struct FluidView {
+    double *x[3], *v[3], *v_now[3], *acceleration[3];
+    double *mass, *rho, *rho_now, *rho_rate, *e, *e_now, *e_rate, *pressure, *sound, *h, *rho_start, *lit, *burnt, *peak_pressure;
+    std::int64_t n;
+    double spacing, z_low, period;
+    BRISANCE_HD double current_spacing(std::int64_t i) const { return std::cbrt(mass[i] / rho_now[i]); }
+};
+/// Kernels that only read take it too, so that a body that is constant has one.
+inline FluidView view(const FluidBody& constant) {
+    auto& b = const_cast<FluidBody&>(constant);
+    const auto all = [](std::array<Array<double>, 3>& a, double* (&to)[3]) {
+        for (std::size_t k = 0; k < 3; ++k) to[k] = a[k].data();
+    };
+    FluidView v{};
+    all(b.x, v.x);
+    all(b.v, v.v);
+    all(b.v_now, v.v_now);
+    all(b.acceleration, v.acceleration);
+    v.mass = b.mass.data();
+    v.rho = b.rho.data();
+    v.rho_now = b.rho_now.data();
+    v.rho_rate = b.rho_rate.data();
+    v.e = b.e.data();
+    v.e_now = b.e_now.data();
+    v.e_rate = b.e_rate.data();
+    v.pressure = b.pressure.data();
+    v.sound = b.sound.data();
+    v.h = b.h.data();
+    v.rho_start = b.rho_start.empty() ? nullptr : b.rho_start.data();
+    v.lit = b.lit.data();
+    v.burnt = b.burnt.data();
+    v.peak_pressure = b.peak_pressure.data();
+    v.n = b.size();
+    v.spacing = b.spacing;
+    v.z_low = b.z_low;
+    v.period = b.period;
+    return v;
+}
 
 inline void resize(FluidBody& b, std::size_t n) {
     for (auto* group : {&b.x, &b.v, &b.v_now, &b.acceleration, &b.reference})

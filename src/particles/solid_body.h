@@ -4,10 +4,10 @@
 #pragma once
 
 #include "laws/material.h"
+#include "math/pack.h"
 #include "particles/columns.h"
 
 #include <array>
-#include <initializer_list>
 #include <string>
 
 namespace brisance {
@@ -65,29 +65,71 @@ struct SolidBody {
     double mass(const Column& c) const { return material.density * volume(c); }
 };
 
-/// What the neighbour sums of a body read, as bare pointers: the form in which kernels take it.
+/// A body as kernels take it: bare pointers by slot.
 template <class R>
 struct SolidView {
-    const R* u[3];
-    const R* v[3];
-    const R* v_now[3];
-    const R* T[9];
-    const R* stiffness;
-    const R* live;
-};
-template <class R>
-SolidView<R> view(const SolidBody<R>& b) {
-    SolidView<R> s{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        s.u[k] = b.u[k].data();
-        s.v[k] = b.v[k].data();
-        s.v_now[k] = b.v_now[k].data();
+    R *u[3], *v[3], *v_now[3], *acceleration[3], *viscous_force[3];
+    R *R_sum[9], *T[9], *s[6];
+    R *pressure, *energy, *power, *stiffness, *scale, *live, *opening;
+    R* state[max_law_state];
+    float *peak_pressure, *peak_radial, *sigma_1, *tau_max, *failure_time, *yield;
+    std::uint8_t* flags;
+    const Tile* tiles;
+    const Column* columns;
+    double dz;
+    double density;
+    std::int32_t packs_shift;  ///< a tile holds 2^this packs
+
+    /// The particles that a kernel treats at once, a pack of a tile.
+    BRISANCE_HD Tile pack(std::int64_t g) const {
+        const Tile& t = tiles[g >> packs_shift];
+        return {t.base + (g - (g >> packs_shift << packs_shift)) * lanes<R>, t.column, t.masked};
     }
-    for (std::size_t k = 0; k < 9; ++k) s.T[k] = b.T[k].data();
+    BRISANCE_HD double volume(const Column& c) const { return c.area * dz; }
+    BRISANCE_HD double mass(const Column& c) const { return density * volume(c); }
+};
+
+/// Kernels that only read take it too, so that a body that is constant has one.
+template <class R>
+SolidView<R> view(const SolidBody<R>& constant) {
+    auto& b = const_cast<SolidBody<R>&>(constant);
+    SolidView<R> s{};
+    const auto all = [](auto& to, auto& from) {
+        for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[k].data();
+    };
+    all(s.u, b.u);
+    all(s.v, b.v);
+    all(s.v_now, b.v_now);
+    all(s.acceleration, b.acceleration);
+    all(s.viscous_force, b.viscous_force);
+    all(s.R_sum, b.R_sum);
+    all(s.T, b.T);
+    all(s.s, b.s);
+    all(s.state, b.state);
+    s.pressure = b.pressure.data();
+    s.energy = b.energy.data();
+    s.power = b.power.data();
     s.stiffness = b.stiffness.data();
+    s.scale = b.scale.data();
     s.live = b.live.data();
+    s.opening = b.opening.data();
+    s.peak_pressure = b.peak_pressure.data();
+    s.peak_radial = b.peak_radial.data();
+    s.sigma_1 = b.sigma_1.data();
+    s.tau_max = b.tau_max.data();
+    s.failure_time = b.failure_time.data();
+    s.yield = b.yield.data();
+    s.flags = b.layout.flags.data();
+    s.tiles = b.layout.tiles.data();
+    s.columns = b.layout.columns.data();
+    s.dz = b.layout.dz;
+    s.density = b.material.density;
+    while ((lanes<R> << s.packs_shift) < b.layout.width) ++s.packs_shift;
     return s;
 }
+/// Packs of a body: how many items its kernels have.
+template <class R>
+std::int64_t packs(const SolidBody<R>& b) { return static_cast<std::int64_t>(b.layout.tiles.size()) * (b.layout.width / lanes<R>); }
 
 /// Allocates everything for a layout, at rest and unstressed.
 template <class R>
@@ -115,26 +157,6 @@ void allocate(SolidBody<R>& b) {
             b.live[i] = R(1);
             b.stiffness[i] = a0;
         }
-}
-
-/// Copies the layers of every column into its periodic images, for some arrays at once.
-template <class T>
-void fill_images(const Columns& layout, std::initializer_list<T*> arrays) {
-    if (!layout.periodic) return;
-    exec::for_each(static_cast<std::int64_t>(layout.columns.size()), [&](std::int64_t c) {
-        const Column& column = layout.columns[static_cast<std::size_t>(c)];
-        const int n = column.layers;
-        for (T* a : arrays) {
-            T* first = a + column.start;
-            // outwards, so that more images than layers repeat the pattern
-            for (int k = 1; k <= layout.pad; ++k) first[-k] = first[n - k];
-            for (int k = 0; k < layout.pad; ++k) first[n + k] = first[k];
-        }
-    }, 256);
-}
-template <class R>
-void fill_images(const Columns& layout, std::array<Array<R>, 3>& a) {
-    fill_images(layout, {a[0].data(), a[1].data(), a[2].data()});
 }
 
 }  // namespace brisance

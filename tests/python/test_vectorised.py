@@ -13,7 +13,7 @@ import subprocess
 import unittest
 
 PROGRAM = os.environ.get("BRISANCE", "build/release/brisance")
-LAW = re.compile(r"\(anonymous namespace\)::(\w+)(?:>::(update_pack|update|terms)\(|::(update|terms)<)")
+LAW = re.compile(r"brisance::(\w+)(?:>::(update_pack|update|terms)\(|::(update|terms)<)")
 ARITHMETIC = re.compile(r"v?(?:add|sub|mul|div|sqrt|max|min|f?n?m(?:add|sub)\d*|fnm(?:add|sub)\d*)(pd|sd|ps|ss)$")
 
 

@@ -45,7 +45,7 @@ FluidPart disturbed_water(const FluidBox& box, double size, std::uint64_t seed) 
 
 struct Total {
     double x = 0, y = 0, z = 0, size = 0;
-    void add(const std::vector<double>& fx, const std::vector<double>& fy, const std::vector<double>& fz) {
+    void add(const Array<double>& fx, const Array<double>& fy, const Array<double>& fz) {
         for (std::size_t i = 0; i < fx.size(); ++i) {
             x += fx[i];
             y += fy[i];

@@ -6,6 +6,7 @@
 #include "integrate/world.h"
 #include "law_helpers.h"
 #include "math/eigen.h"
+#include "particles/periodic_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,10 +60,10 @@ SolidPart<R> solid(const Material& material, const SolidOptions& options, std::v
     s.body.material = material;
     s.body.options = options;
     Columns& layout = s.body.layout;
-    layout.columns = std::move(columns);
+    layout.columns.assign(columns.begin(), columns.end());
     layout.dz = dz;
     layout.periodic = periodic;
-    layout.width = lanes<R>;
+    layout.width = tile_width<R>;
     layout.pad = largest_offset(options.smoothing);
     lay_out(layout, present);
     allocate(s.body);
@@ -120,7 +121,7 @@ SolidPart<R> block(const Material& material, const SolidOptions& options, const 
     pairs = {};
     pairs.w = prototype.pairs.w;
     pairs.begin.push_back(0);
-    const std::vector<Column>& columns = s.body.layout.columns;
+    const Array<Column>& columns = s.body.layout.columns;
     for (int i = 0; i < l.nx; ++i)
         for (int j = 0; j < l.ny; ++j) {
             const Column& me = columns[static_cast<std::size_t>(i * l.ny + j)];

@@ -4,8 +4,9 @@
 // Pairwise viscosity in total-Lagrangian form, with x = x_j - x_i, v = v_j - v_i at t_n, only where x.v < 0:
 //   mu = h x.v/(x^2 + 0.01 h^2),  q = rho (-alpha c mu + beta mu^2) >= 0,  f_ij/V_i = -w q x     (central: angular momentum is kept)
 // and its heat -f_ij.v/2 to each of the two.
-#include "exec/device.h"
+#include "exec/launch.h"
 #include "formulations/total_lagrangian/total_lagrangian.h"
+#include "particles/periodic_images.h"
 
 #include <algorithm>
 
@@ -118,106 +119,77 @@ BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pai
     return f;
 }
 
-/// The same force by single lanes, for a device; without pairwise viscosity.
-template <class R>
-struct ForceKernel {
-    SolidView<R> body;
+/// v += kick f/m for the particles of a pack. Gives the viscous heat, J.
+template <class V, bool viscous>
+struct KickKernel {
+    using R = ScalarOf<V>;
+    SolidView<R> b;
     PairsView<R> pairs;
-    const Tile* tiles;
-    std::int32_t width;
-    R scale;
-    R* v[3];
-    BRISANCE_HD void operator()(std::int64_t i) const {
-        const Tile& tile = tiles[i / width];
-        const std::int64_t slot = tile.base + i % width;
-        const Force<R> f = tile.masked ? gather_force<R, true, false>(body, pairs, slot, tile.column, Viscosity<R>{})
-                                       : gather_force<R, false, false>(body, pairs, slot, tile.column, Viscosity<R>{});
-        v[0][slot] += scale * f.x;
-        v[1][slot] += scale * f.y;
-        v[2][slot] += scale * f.z;
+    Viscosity<R> viscosity;
+    R kick, scale, inverse_density;
+
+    BRISANCE_HD double operator()(std::int64_t n) const {
+        const Tile tile = b.pack(n);
+        const std::int64_t i = tile.base;
+        const Force<V> f = tile.masked ? gather_force<V, true, viscous>(b, pairs, i, tile.column, viscosity) : gather_force<V, false, viscous>(b, pairs, i, tile.column, viscosity);
+        const V fs[3] = {f.x + f.vx, f.y + f.vy, f.z + f.vz}, viscous_part[3] = {f.vx, f.vy, f.vz};
+        for (int k = 0; k < 3; ++k) {
+            store(b.v[k] + i, load<V>(b.v[k] + i) + scale * fs[k]);
+            if constexpr (viscous) {
+                store(b.acceleration[k] + i, inverse_density * fs[k]);
+                store(b.viscous_force[k] + i, viscous_part[k]);
+            }
+        }
+        if constexpr (!viscous) return 0;
+        const V gained = kick * f.heat;
+        store(b.energy + i, load<V>(b.energy + i) + gained);
+        double heat = 0;
+        for (int l = 0; l < lanes<R>; ++l)
+            if (b.flags[i + l] & slot_own) heat += static_cast<double>(lane(gained, l));
+        return heat * b.volume(b.columns[tile.column]);
     }
 };
 
-}  // namespace
+template <class V>
+struct DriftKernel {
+    using R = ScalarOf<V>;
+    SolidView<R> b;
+    R dt;
+    BRISANCE_HD void operator()(std::int64_t n) const {
+        const std::int64_t i = b.pack(n).base;
+        for (int k = 0; k < 3; ++k) store(b.u[k] + i, load<V>(b.u[k] + i) + dt * load<V>(b.v[k] + i));
+    }
+};
 
-template <class R>
-double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
-    using V = Pack<R>;
-    const R scale = static_cast<R>(kick / b.material.density), inverse_density = static_cast<R>(1 / b.material.density);
-    const bool viscous = b.options.pairwise;
-    const SolidView<R> body = view(b);
-    const PairsView<R> bonds = view(pairs);
-    const Viscosity<R> viscosity{static_cast<R>(b.options.alpha * b.material.sound_speed()), static_cast<R>(b.options.beta),
-                                 static_cast<R>(b.material.density)};
-    exec::compile_for_device<ForceKernel<R>>();
-    const auto n = static_cast<std::int64_t>(b.layout.tiles.size());
-    std::vector<double> heat(viscous ? static_cast<std::size_t>(n) : 0);
-    exec::for_each(n, [&](std::int64_t t) {
-        const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
-        const std::int64_t i = tile.base;
-        const Force<V> f = viscous ? (tile.masked ? gather_force<V, true, true>(body, bonds, i, tile.column, viscosity)
-                                                  : gather_force<V, false, true>(body, bonds, i, tile.column, viscosity))
-                                   : (tile.masked ? gather_force<V, true, false>(body, bonds, i, tile.column, viscosity)
-                                                  : gather_force<V, false, false>(body, bonds, i, tile.column, viscosity));
-        const V fs[3] = {f.x + f.vx, f.y + f.vy, f.z + f.vz}, viscous_part[3] = {f.vx, f.vy, f.vz};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const V v = load<V>(b.v[k].data() + i) + scale * fs[k];
-            store(b.v[k].data() + i, v);
-            if (viscous) {
-                store(b.acceleration[k].data() + i, inverse_density * fs[k]);
-                store(b.viscous_force[k].data() + i, viscous_part[k]);
-            }
-        }
-        if (viscous) {
-            const V gained = static_cast<R>(kick) * f.heat;
-            store(b.energy.data() + i, load<V>(b.energy.data() + i) + gained);
-            double h = 0;
-            for (int l = 0; l < lanes<R>; ++l)
-                if (b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own) h += static_cast<double>(lane(gained, l));
-            heat[static_cast<std::size_t>(t)] = h * b.volume(b.layout.columns[static_cast<std::size_t>(tile.column)]);
-        }
-    });
-    double total = 0;
-    for (double h : heat) total += h;
-    return total;
-}
-
-template <class R>
-void drift(SolidBody<R>& b, double dt, double kick) {
-    using V = Pack<R>;
-    const R step = static_cast<R>(dt);
-    exec::for_each(static_cast<std::int64_t>(b.layout.tiles.size()), [&](std::int64_t t) {
-        const std::int64_t i = b.layout.tiles[static_cast<std::size_t>(t)].base;
-        for (std::size_t k = 0; k < 3; ++k) store(b.u[k].data() + i, load<V>(b.u[k].data() + i) + step * load<V>(b.v[k].data() + i));
-    }, 256);
-    fill_images(b.layout, b.u);
-    fill_images(b.layout, b.v);
-    if (!b.options.pairwise) return;
-    // v_now is renewed only here, since neighbours read it during a kick: v at the t_n that the drift arrives at is v_n+1/2 + dt/2 a_n.
-    const R half = static_cast<R>(0.5 * dt), half_kick = static_cast<R>(0.5 * kick), full_kick = static_cast<R>(kick);
-    exec::for_each(static_cast<std::int64_t>(b.layout.tiles.size()), [&](std::int64_t t) {
-        const std::int64_t i = b.layout.tiles[static_cast<std::size_t>(t)].base;
+/// v_now is renewed only here, since neighbours read it during a kick: v at the t_n that the drift arrives at is v_n+1/2 + dt/2 a_n.
+template <class V>
+struct ExtrapolateKernel {
+    using R = ScalarOf<V>;
+    SolidView<R> b;
+    R half, half_kick, full_kick;
+    BRISANCE_HD void operator()(std::int64_t n) const {
+        const std::int64_t i = b.pack(n).base;
         V missed{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const V v = load<V>(b.v[k].data() + i), a = load<V>(b.acceleration[k].data() + i), mean = v - half_kick * a;
-            missed += load<V>(b.viscous_force[k].data() + i) * (mean - load<V>(b.v_now[k].data() + i));
-            store(b.v_now[k].data() + i, v + half * a);
+        for (int k = 0; k < 3; ++k) {
+            const V v = load<V>(b.v[k] + i), a = load<V>(b.acceleration[k] + i), mean = v - half_kick * a;
+            missed += load<V>(b.viscous_force[k] + i) * (mean - load<V>(b.v_now[k] + i));
+            store(b.v_now[k] + i, v + half * a);
         }
-        store(b.energy.data() + i, load<V>(b.energy.data() + i) - full_kick * missed);
-    }, 256);
-    fill_images(b.layout, b.v_now);
-}
+        store(b.energy + i, load<V>(b.energy + i) - full_kick * missed);
+    }
+};
 
 template <class R>
-BodySums sums(const SolidBody<R>& b) {
-    const auto& tiles = b.layout.tiles;
-    return exec::sum(static_cast<std::int64_t>(tiles.size()), BodySums{}, [&](std::int64_t t) {
-        const Tile& tile = tiles[static_cast<std::size_t>(t)];
-        const Column& c = b.layout.columns[static_cast<std::size_t>(tile.column)];
+struct SumsKernel {
+    SolidView<R> b;
+    bool has_damage;
+    double threshold;
+    BRISANCE_HD BodySums operator()(std::int64_t n) const {
+        const Tile tile = b.pack(n);
+        const Column& c = b.columns[tile.column];
         BodySums s;
-        for (std::int64_t l = tile.base; l < tile.base + lanes<R>; ++l) {
-            const auto i = static_cast<std::size_t>(l);
-            if (!(b.layout.flags[i] & slot_own)) continue;
+        for (std::int64_t i = tile.base; i < tile.base + lanes<R>; ++i) {
+            if (!(b.flags[i] & slot_own)) continue;
             const double vx = static_cast<double>(b.v[0][i]), vy = static_cast<double>(b.v[1][i]), vz = static_cast<double>(b.v[2][i]);
             s.kinetic += 0.5 * (vx * vx + vy * vy + vz * vz);
             s.px += vx;
@@ -225,7 +197,7 @@ BodySums sums(const SolidBody<R>& b) {
             s.pz += vz;
             s.internal += static_cast<double>(b.energy[i]);
             s.mass += 1;
-            s.damaged += b.damage(i) > b.options.failure.threshold;
+            s.damaged += (has_damage ? static_cast<double>(b.state[0][i]) : 0.0) > threshold;
         }
         const double m = b.mass(c);
         s.mass *= m;
@@ -235,9 +207,49 @@ BodySums sums(const SolidBody<R>& b) {
         s.pz *= m;
         s.internal *= b.volume(c);
         return s;
-    });
+    }
+};
+
+}  // namespace
+
+template <class R>
+void complete(SolidBody<R>& b) {
+    fill_images(b.layout, {b.live.data(), b.stiffness.data()});
+    fill_images(b.layout, b.v);
 }
 
+template <class R>
+double kick(SolidBody<R>& b, const ColumnPairs<R>& pairs, double kick) {
+    using V = Pack<R>;
+    const double rho = b.material.density;
+    const R scale = static_cast<R>(kick / rho), inverse_density = static_cast<R>(1 / rho);
+    if (!b.options.pairwise) {
+        const KickKernel<V, false> kernel{view(b), view(pairs), {}, static_cast<R>(kick), scale, inverse_density};
+        exec::launch(packs(b), kernel);
+        return 0;
+    }
+    const Viscosity<R> viscosity{static_cast<R>(b.options.alpha * b.material.sound_speed()), static_cast<R>(b.options.beta), static_cast<R>(rho)};
+    return exec::launch_sum(packs(b), KickKernel<V, true>{view(b), view(pairs), viscosity, static_cast<R>(kick), scale, inverse_density});
+}
+
+template <class R>
+void drift(SolidBody<R>& b, double dt, double kick) {
+    using V = Pack<R>;
+    exec::launch(packs(b), DriftKernel<V>{view(b), static_cast<R>(dt)}, 256);
+    fill_images(b.layout, b.u);
+    fill_images(b.layout, b.v);
+    if (!b.options.pairwise) return;
+    exec::launch(packs(b), ExtrapolateKernel<V>{view(b), static_cast<R>(0.5 * dt), static_cast<R>(0.5 * kick), static_cast<R>(kick)}, 256);
+    fill_images(b.layout, b.v_now);
+}
+
+template <class R>
+BodySums sums(const SolidBody<R>& b) {
+    return exec::launch_sum(packs(b), BodySums{}, SumsKernel<R>{view(b), !b.state.empty(), b.options.failure.threshold});
+}
+
+template void complete(SolidBody<double>&);
+template void complete(SolidBody<float>&);
 template double kick(SolidBody<double>&, const ColumnPairs<double>&, double);
 template double kick(SolidBody<float>&, const ColumnPairs<float>&, double);
 template void drift(SolidBody<double>&, double, double);

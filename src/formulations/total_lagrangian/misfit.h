@@ -11,7 +11,7 @@ namespace brisance {
 
 /// sum w e_n.e_n-1 of the particles of a tile, mm2; `dt` is the drift that led to u_n.
 template <class V, class R>
-V misfit(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& tile, R dt, const Sym3<V>& k_inverse) {
+BRISANCE_HD V misfit(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& tile, R dt, const Sym3<V>& k_inverse) {
     const std::int64_t i = tile.base, c = tile.column;
     const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *vx = b.v[0] + i, *vy = b.v[1] + i, *vz = b.v[2] + i, *live = b.live + i;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), vxi = load<V>(vx), vyi = load<V>(vy), vzi = load<V>(vz);

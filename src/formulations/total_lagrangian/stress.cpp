@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pass 1: F from the neighbours' displacements, objective strain increment, equation of state, strength law, T = P K^-1 - a (F - I).
-#include "exec/device.h"
+#include "exec/launch.h"
 #include "formulations/total_lagrangian/misfit.h"
 #include "formulations/total_lagrangian/total_lagrangian.h"
 #include "laws/crack_band.h"
 #include "laws/point.h"
 #include "math/eigen.h"
 #include "math/increment.h"
+#include "particles/periodic_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,20 +92,20 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
     return g;
 }
 
-template <class V, class Arrays> BRISANCE_INLINE Mat3<V> load_matrix(const Arrays& a, std::int64_t i) {
-    return {load<V>(a[0].data() + i), load<V>(a[1].data() + i), load<V>(a[2].data() + i), load<V>(a[3].data() + i), load<V>(a[4].data() + i),
-            load<V>(a[5].data() + i), load<V>(a[6].data() + i), load<V>(a[7].data() + i), load<V>(a[8].data() + i)};
+template <class V, class R> BRISANCE_INLINE Mat3<V> load_matrix(R* const (&a)[9], std::int64_t i) {
+    return {load<V>(a[0] + i), load<V>(a[1] + i), load<V>(a[2] + i), load<V>(a[3] + i), load<V>(a[4] + i),
+            load<V>(a[5] + i), load<V>(a[6] + i), load<V>(a[7] + i), load<V>(a[8] + i)};
 }
-template <class V, class Arrays> BRISANCE_INLINE void store_matrix(Arrays& a, std::int64_t i, const Mat3<V>& m) {
-    store(a[0].data() + i, m.xx);
-    store(a[1].data() + i, m.xy);
-    store(a[2].data() + i, m.xz);
-    store(a[3].data() + i, m.yx);
-    store(a[4].data() + i, m.yy);
-    store(a[5].data() + i, m.yz);
-    store(a[6].data() + i, m.zx);
-    store(a[7].data() + i, m.zy);
-    store(a[8].data() + i, m.zz);
+template <class V, class R> BRISANCE_INLINE void store_matrix(R* const (&a)[9], std::int64_t i, const Mat3<V>& m) {
+    store(a[0] + i, m.xx);
+    store(a[1] + i, m.xy);
+    store(a[2] + i, m.xz);
+    store(a[3] + i, m.yx);
+    store(a[4] + i, m.yy);
+    store(a[5] + i, m.yz);
+    store(a[6] + i, m.zx);
+    store(a[7] + i, m.zy);
+    store(a[8] + i, m.zz);
 }
 
 template <class V> BRISANCE_INLINE Mat3<V> plus_identity(Mat3<V> m) {
@@ -115,51 +116,62 @@ template <class V> BRISANCE_INLINE Mat3<V> plus_identity(Mat3<V> m) {
     return m;
 }
 
-/// The same sums by single lanes, for a device.
-template <class R>
-struct GatherKernel {
-    SolidView<R> body;
-    PairsView<R> pairs;
-    const Tile* tiles;
-    std::int32_t width;
-    R* r[9];
-    BRISANCE_HD void operator()(std::int64_t i) const {
-        const Tile& tile = tiles[i / width];
-        const std::int64_t slot = tile.base + i % width;
-        const Mat3<R> m = tile.masked ? gather<R, true>(body, pairs, slot, tile.column).r : gather<R, false>(body, pairs, slot, tile.column).r;
-        const R all[9] = {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz};
-        for (int k = 0; k < 9; ++k) r[k][slot] = all[k];
-    }
-};
-
-template <class V> void set_lane(V& v, int l, ScalarOf<V> x) {
+template <class V> BRISANCE_INLINE void set_lane(V& v, int l, ScalarOf<V> x) {
     std::memcpy(reinterpret_cast<char*>(&v) + static_cast<std::size_t>(l) * sizeof(x), &x, sizeof(x));
 }
 
-/// What one tile adds to the report.
-struct TileReport {
+/// What the packs of a body add up to.
+struct StressSums {
     double rate = 0, zero_energy_lost = 0, bulk_viscous = 0;
-    bool torn = false;
+    std::int64_t fastest = -1, torn = 0;
+    BRISANCE_HD StressSums& operator+=(const StressSums& o) {
+        if (o.rate > rate) {
+            rate = o.rate;
+            fastest = o.fastest;
+        }
+        zero_energy_lost += o.zero_energy_lost;
+        bulk_viscous += o.bulk_viscous;
+        torn += o.torn;
+        return *this;
+    }
 };
 
-template <class R>
-class StressPass {
-public:
-    using V = Pack<R>;
-    StressPass(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick)
-        : b(body), view_(view(body)), pairs_(view(pairs)), time_(static_cast<float>(time)), dt_(static_cast<R>(dt)), kick_(static_cast<R>(kick)),
-          a0_(static_cast<R>(body.options.zero_energy * body.material.longitudinal_modulus())), n_state_(static_cast<int>(body.state.size())), bulk_modulus_(body.material.bulk_modulus()) {}
+/// Numbers of a material that hold for all its particles, GPa, g/cm3, mm/us.
+struct Moduli {
+    double density, bulk, longitudinal, shear, sound;
+    explicit Moduli(const Material& m)
+        : density(m.density), bulk(m.bulk_modulus()), longitudinal(m.longitudinal_modulus()), shear(m.strength->shear_modulus()), sound(m.sound_speed()) {}
+};
 
-    TileReport operator()(const Tile& tile) const {
-        const Gathered<V> g = tile.masked ? gather<V, true>(view_, pairs_, tile.base, tile.column) : gather<V, false>(view_, pairs_, tile.base, tile.column);
-        return update(tile, g);
+template <class V, class Laws>
+struct StressKernel {
+    using R = ScalarOf<V>;
+    SolidView<R> b;
+    PairsView<R> pairs;
+    Laws laws;
+    Moduli moduli;
+    FailureRule rule;
+    double axis_x, axis_y;
+    double linear, quadratic;  // bulk viscosity
+    float time;
+    R dt, kick, a0;
+    int n_state;
+
+    StressKernel(SolidBody<R>& body, const ColumnPairs<R>& bonds, const Laws& its_laws, double time_, double dt_, double kick_)
+        : b(view(body)), pairs(view(bonds)), laws(its_laws), moduli(body.material), rule(body.options.failure), axis_x(body.axis_x), axis_y(body.axis_y),
+          linear(body.options.linear), quadratic(body.options.quadratic), time(static_cast<float>(time_)), dt(static_cast<R>(dt_)), kick(static_cast<R>(kick_)),
+          a0(static_cast<R>(body.options.zero_energy * moduli.longitudinal)), n_state(static_cast<int>(body.state.size())) {}
+
+    BRISANCE_HD StressSums operator()(std::int64_t n) const {
+        const Tile tile = b.pack(n);
+        return tile.masked ? update(tile, gather<V, true>(b, pairs, tile.base, tile.column)) : update(tile, gather<V, false>(b, pairs, tile.base, tile.column));
     }
 
 private:
-    TileReport update(const Tile& tile, const Gathered<V>& g) const {
+    BRISANCE_HD StressSums update(const Tile& tile, const Gathered<V>& g) const {
         const std::int64_t i = tile.base;
-        const Column& column = b.layout.columns[static_cast<std::size_t>(tile.column)];
-        const V zero{}, one = broadcast<V>(R(1)), on = load<V>(b.live.data() + i);
+        const Column& column = b.columns[tile.column];
+        const V zero{}, one = broadcast<V>(R(1)), on = load<V>(b.live + i);
         const auto alive = on > R(0);
 
         // kinematics
@@ -172,41 +184,41 @@ private:
         const V safe_j = vmax(jacobian, broadcast<V>(R(0.05)));
 
         // energy up to the last kick: the old stress worked over half of the drift before it and half of the one after
-        const V a_old = load<V>(b.stiffness.data() + i);
+        const V a_old = load<V>(b.stiffness + i);
         const Mat3<V> dr = g.r - r_old;
         const V work = ddot(load_matrix<V>(b.T, i), dr) + a_old * ddot(h_old, dr);
-        V energy = load<V>(b.energy.data() + i) + R(0.5) * kick_ * (load<V>(b.power.data() + i) + work / dt_);
+        V energy = load<V>(b.energy + i) + R(0.5) * kick * (load<V>(b.power + i) + work / dt);
 
         // pressure and strength
-        SolidPoint<V> p;
+        SolidPoint<V> p{};
         p.d = step.d;
-        p.s = rotated(step.rotation, Sym3<V>{load<V>(b.s[0].data() + i), load<V>(b.s[1].data() + i), load<V>(b.s[2].data() + i),
-                                             load<V>(b.s[3].data() + i), load<V>(b.s[4].data() + i), load<V>(b.s[5].data() + i)});
-        p.dt = broadcast<V>(dt_);
-        p.scale = load<V>(b.scale.data() + i);
-        for (int k = 0; k < n_state_; ++k) p.state[k] = load<V>(b.state[static_cast<std::size_t>(k)].data() + i);
-        const V damage_old = n_state_ > 0 ? p.state[0] : zero;
+        p.s = rotated(step.rotation, Sym3<V>{load<V>(b.s[0] + i), load<V>(b.s[1] + i), load<V>(b.s[2] + i),
+                                             load<V>(b.s[3] + i), load<V>(b.s[4] + i), load<V>(b.s[5] + i)});
+        p.dt = broadcast<V>(dt);
+        p.scale = load<V>(b.scale + i);
+        for (int k = 0; k < n_state; ++k) p.state[k] = load<V>(b.state[k] + i);
+        const V damage_old = n_state > 0 ? p.state[0] : zero;
         const V expansion = trace(step.d);
-        const bool softens = b.options.failure.fracture_energy > 0;
+        const bool softens = rule.fracture_energy > 0;
         V opening{}, lift{};
         if (softens) {
-            opening = load<V>(b.opening.data() + i);
-            lift = R(bulk_modulus_) * opening;
+            opening = load<V>(b.opening + i);
+            lift = R(moduli.bulk) * opening;
         }
-        const V bulk = advance(b.material, p, safe_j, energy, softens ? &lift : nullptr);
+        const V bulk = advance(laws, p, safe_j, energy, softens ? &lift : nullptr);
         if (softens) crack(p, column, opening);
         failure(p, tile, column, damage_old);
 
         // bulk viscosity: q = rho l (C_q l e^2 - C_l c e) in compression, e = tr D < 0
-        TileReport report;
+        StressSums report;
         const V modulus = bulk + p.shear_stiffness;
-        const R rho = static_cast<R>(b.material.density);
+        const R rho = static_cast<R>(moduli.density);
         const V sound = vsqrt(modulus * vmax(one, safe_j) / rho);
         V q = zero;
-        if (b.options.linear > 0 || b.options.quadratic > 0) {
+        if (linear > 0 || quadratic > 0) {
             const R length = static_cast<R>(std::cbrt(b.volume(column)));  // l, as in LS-DYNA
-            const V e = vmin(expansion / dt_, zero);
-            q = (rho / safe_j) * length * e * (R(b.options.quadratic) * length * e - R(b.options.linear) * sound);
+            const V e = vmin(expansion / dt, zero);
+            q = (rho / safe_j) * length * e * (R(quadratic) * length * e - R(linear) * sound);
         }
 
         // stress and what the sums need
@@ -214,18 +226,18 @@ private:
         const Sym3<V> sigma{p.s.xx - total, p.s.yy - total, p.s.zz - total, p.s.xy, p.s.xz, p.s.yz};
         const Mat3<V> pk = (sigma * cof) * g.k_inverse;  // P K^-1, P = J sigma F^-T
         const V k_on = alive ? one : zero;
-        V a_keep = a0_ * p.integrity * k_on;
+        V a_keep = a0 * p.integrity * k_on;
         if (softens) {
             // What F does not see beside an opening crack is its opening, and no zero-energy mode: the control must not pull it shut. In
             // tension, beyond a fifth of the strain of failure, it is softened as (strain/misfit)^2, for good, so that its force falls as
             // the crack opens. Sum w xi xi being the unit tensor, misfit/3 is the square of a strain.
-            const R strain = R(0.2 * b.options.failure.tensile / b.material.longitudinal_modulus());
+            const R strain = R(0.2 * rule.tensile / moduli.longitudinal);
             const V limit = broadcast<V>(R(3) * strain * strain);
-            const V unseen = misfit<V>(view_, pairs_, tile, R(0), g.k_inverse);
+            const V unseen = misfit<V>(b, pairs, tile, R(0), g.k_inverse);
             const V soft = ((unseen > limit) & (p.pressure < zero)) ? limit / vmax(unseen, limit) : one;
             a_keep = vmin(a_keep * soft, a_old);
         }
-        const auto put = [&](int n, V pk_n, V h_n) { store(b.T[static_cast<std::size_t>(n)].data() + i, (alive ? pk_n - a_keep * h_n : zero)); };
+        const auto put = [&](int n, V pk_n, V h_n) { store(b.T[n] + i, (alive ? pk_n - a_keep * h_n : zero)); };
         put(0, pk.xx, h_new.xx);
         put(1, pk.xy, h_new.xy);
         put(2, pk.xz, h_new.xz);
@@ -237,7 +249,7 @@ private:
         put(8, pk.zz, h_new.zz);
 
         store_matrix(b.R_sum, i, g.r);
-        const auto keep = [&](Array<R>& a, V x) { store(a.data() + i, (alive ? x : load<V>(a.data() + i))); };
+        const auto keep = [&](R* a, V x) { store(a + i, (alive ? x : load<V>(a + i))); };
         keep(b.s[0], p.s.xx);
         keep(b.s[1], p.s.yy);
         keep(b.s[2], p.s.zz);
@@ -247,17 +259,17 @@ private:
         keep(b.pressure, p.pressure);
         if (softens) keep(b.opening, opening);
         keep(b.energy, energy);
-        store(b.power.data() + i, alive ? ddot(pk, dr) / dt_ : zero);
-        store(b.stiffness.data() + i, a_keep);
-        for (int k = 0; k < n_state_; ++k) keep(b.state[static_cast<std::size_t>(k)], p.state[k]);
-        store_float(b.yield.data() + i, p.yield);
+        store(b.power + i, alive ? ddot(pk, dr) / dt : zero);
+        store(b.stiffness + i, a_keep);
+        for (int k = 0; k < n_state; ++k) keep(b.state[k], p.state[k]);
+        store_float(b.yield + i, p.yield);
 
         // sums of the tile: only lanes that are particles
         const V own = owned(i) * k_on;
         const double volume = b.volume(column);
         const V softened = own * vmax(a_old - a_keep, zero);
         if (hmax(softened) > R(0))
-            report.zero_energy_lost = 0.5 * volume * static_cast<double>(hsum(softened * misfit<V>(view_, pairs_, tile, dt_, g.k_inverse)));
+            report.zero_energy_lost = 0.5 * volume * static_cast<double>(hsum(softened * misfit<V>(b, pairs, tile, dt, g.k_inverse)));
         report.bulk_viscous = volume * static_cast<double>(hsum(-own * q * safe_j * expansion));
 
         // stable step: the least stretch lambda_min from B = F^-1 F^-T
@@ -266,45 +278,45 @@ private:
         // (tr B^4 / 3)^(1/8) ~ 1/lambda_min: exact for equal stretches, 13 % below where only one is compressed to a half
         const Mat3<V> bb = Mat3<V>{B.xx, B.xy, B.xz, B.xy, B.yy, B.yz, B.xz, B.yz, B.zz} * B;
         const V inverse_stretch = vsqrt(vsqrt(vsqrt(R(1.0 / 3.0) * ddot(bb, bb))));
-        const R spacing = static_cast<R>(std::min(column.spacing, b.layout.dz));
+        const R spacing = static_cast<R>(std::min(column.spacing, b.dz));
         const V own_rate = sound * inverse_stretch * (R(1) / spacing);
         // rock that has failed and is not pressed bears nothing and is no spring
         const auto bears = (p.integrity > R(0)) | (total > R(0));
         const V rate = bears ? own_rate : zero;
-        const R at_rest = static_cast<R>(b.material.sound_speed()) / spacing;
+        const R at_rest = static_cast<R>(moduli.sound) / spacing;
 
         // The guard: what has no meaning as a deformation any more, what has given away more energy than matter holds at room temperature
         // (copper: 0.7 % of its bulk modulus), and failed particles so distorted that they alone would hold the step.
         const V size = ddot(f_new, f_new);
-        const auto ok = (trace(g.k_inverse) > R(0)) & (jacobian > R(0.4)) & (jacobian < R(8)) & (size < R(40)) & (energy > R(-0.02 * bulk_modulus_)) & (energy < R(1e6)) &
+        const auto ok = (trace(g.k_inverse) > R(0)) & (jacobian > R(0.4)) & (jacobian < R(8)) & (size < R(40)) & (energy > R(-0.02 * moduli.bulk)) & (energy < R(1e6)) &
                         ((p.integrity > R(0.5)) | (rate < R(3) * at_rest));
         const V bad = alive ? (ok ? zero : one) : zero;
         report.rate = static_cast<double>(hmax(own * (one - bad) * rate));
-        report.torn = hmax(bad * owned(i)) > R(0);
-        if (report.torn)
+        report.fastest = i;
+        report.torn = hmax(bad * owned(i)) > R(0) ? 1 : 0;
+        if (report.torn > 0)
             for (int l = 0; l < lanes<R>; ++l)
-                if (lane(bad, l) > R(0) && (b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own))
-                    b.layout.flags[static_cast<std::size_t>(i + l)] |= slot_torn;
+                if (lane(bad, l) > R(0) && (b.flags[i + l] & slot_own))
+                    b.flags[i + l] |= slot_torn;
         return report;
     }
 
-    V owned(std::int64_t i) const {
+    BRISANCE_HD V owned(std::int64_t i) const {
         V v{};
-        if constexpr (lanes_of<V> == 1) v = R(b.layout.flags[static_cast<std::size_t>(i)] & slot_own);
+        if constexpr (lanes_of<V> == 1) v = R(b.flags[i] & slot_own);
         else
-            for (int l = 0; l < lanes<R>; ++l) v[l] = R(b.layout.flags[static_cast<std::size_t>(i + l)] & slot_own);
+            for (int l = 0; l < lanes<R>; ++l) v[l] = R(b.flags[i + l] & slot_own);
         return v;
     }
 
     /// Cracks of a given fracture energy, lane by lane: few lanes have any.
-    void crack(SolidPoint<V>& p, const Column& column, V& opening) const {
-        const FailureRule& rule = b.options.failure;
+    BRISANCE_HD void crack(SolidPoint<V>& p, const Column& column, V& opening) const {
         const R strength = static_cast<R>(rule.tensile);
         const V bound = R(2.0 / 3.0) * mises(p.s) - p.pressure;  // no principal stress is larger
         const auto busy = (bound > strength * p.scale * (broadcast<V>(R(1)) - p.state[0])) | ((opening > V{}) & (p.pressure > V{}));
         const V any = busy ? broadcast<V>(R(1)) : V{};
         if (!(hmax(any) > R(0))) return;
-        const double width = crack_band_spacings * std::cbrt(b.volume(column)), k = bulk_modulus_, g = b.material.strength->shear_modulus();
+        const double width = crack_band_spacings * std::cbrt(b.volume(column)), k = moduli.bulk, g = moduli.shear;
         for (int l = 0; l < lanes<R>; ++l) {
             if (lane(any, l) == R(0)) continue;
             const double place = rule.tensile * static_cast<double>(lane(p.scale, l));
@@ -321,29 +333,28 @@ private:
     }
 
     /// Failure beside the law's own, and what is noted for analysis.
-    void failure(SolidPoint<V>& p, const Tile& tile, const Column& column, const V& damage_old) const {
+    BRISANCE_HD void failure(SolidPoint<V>& p, const Tile& tile, const Column& column, const V& damage_old) const {
         const std::int64_t i = tile.base;
-        const FailureRule& rule = b.options.failure;
         const V zero{}, one = broadcast<V>(R(1));
 
-        const double rx = column.x - b.axis_x, ry = column.y - b.axis_y, r = std::sqrt(rx * rx + ry * ry);
+        const double rx = column.x - axis_x, ry = column.y - axis_y, r = std::sqrt(rx * rx + ry * ry);
         const R nx = static_cast<R>(r > 0 ? rx / r : 1), ny = static_cast<R>(r > 0 ? ry / r : 0);
         const V radial = p.pressure - (p.s.xx * (nx * nx) + p.s.yy * (ny * ny) + p.s.xy * (R(2) * nx * ny));
-        store_float(b.peak_pressure.data() + i, vmax(load_float<V>(b.peak_pressure.data() + i), p.pressure));
-        store_float(b.peak_radial.data() + i, vmax(load_float<V>(b.peak_radial.data() + i), radial));
-        if (n_state_ == 0) return;
+        store_float(b.peak_pressure + i, vmax(load_float<V>(b.peak_pressure + i), p.pressure));
+        store_float(b.peak_radial + i, vmax(load_float<V>(b.peak_radial + i), radial));
+        if (n_state == 0) return;
 
         // Principal stresses are wanted only where a bound on them can exceed what was seen before, in whole rock.
         const V eq = mises(p.s);
-        const V seen_1 = load_float<V>(b.sigma_1.data() + i), seen_tau = load_float<V>(b.tau_max.data() + i);
+        const V seen_1 = load_float<V>(b.sigma_1 + i), seen_tau = load_float<V>(b.tau_max + i);
         const V whole = (damage_old < R(rule.threshold)) ? one : zero;
         const V bound = vmax(R(2.0 / 3.0) * eq - p.pressure - seen_1, R(0.57735026919) * eq - seen_tau);
         const bool look = hmax(whole * bound) > R(0) && hmax(whole * eq) > static_cast<R>(rule.notice);
         if (look) {
             const Principal<V> s = principal(p.s);
             const V one_now = s.one - p.pressure, tau_now = R(0.5) * (s.one - s.three);
-            store_float(b.sigma_1.data() + i, whole * vmax(seen_1, one_now) + (one - whole) * seen_1);
-            store_float(b.tau_max.data() + i, whole * vmax(seen_tau, tau_now) + (one - whole) * seen_tau);
+            store_float(b.sigma_1 + i, whole * vmax(seen_1, one_now) + (one - whole) * seen_1);
+            store_float(b.tau_max + i, whole * vmax(seen_tau, tau_now) + (one - whole) * seen_tau);
             if (rule.tensile > 0 && rule.fracture_energy <= 0) p.state[0] = (one_now > R(rule.tensile) * p.scale) ? one : p.state[0];
             if (rule.shear > 0) p.state[0] = (tau_now > R(rule.shear) * p.scale) ? one : p.state[0];
         }
@@ -358,24 +369,17 @@ private:
         const V now = p.state[0];
         if (hmax(now - damage_old) > R(0))
             for (int l = 0; l < lanes<R>; ++l) {
-                const auto k = static_cast<std::size_t>(i + l);
-                if (lane(now, l) >= R(rule.threshold) && b.failure_time[k] < 0) b.failure_time[k] = time_;
+                if (lane(now, l) >= R(rule.threshold) && b.failure_time[i + l] < 0) b.failure_time[i + l] = time;
             }
     }
 
-    SolidBody<R>& b;
-    SolidView<R> view_;
-    PairsView<R> pairs_;
-    float time_;
-    R dt_, kick_, a0_;
-    int n_state_;
-    double bulk_modulus_;
 };
 
 /// Takes the newly torn particles out of the sums: their neighbours' tiles become masked and get their R_sum afresh, so that the
-/// change of the sum is not mistaken for a deformation.
+/// change of the sum is not mistaken for a deformation. Rare, so the processor's.
 template <class R>
 void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
+    const exec::HostAccess host;
     std::vector<bool> touched(b.layout.tiles.size(), false);
     std::vector<std::size_t> first_tile(b.layout.columns.size() + 1, 0);
     for (const Tile& t : b.layout.tiles) ++first_tile[static_cast<std::size_t>(t.column) + 1];
@@ -401,11 +405,14 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         for (std::size_t t = first_tile[c]; t < first_tile[c + 1]; ++t) touched[t] = true;
     }
     fill_images(b.layout, {b.live.data()});
+    const SolidView<R> body = view(b);
+    const PairsView<R> bonds = view(pairs);
     exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t t) {
         if (!touched[static_cast<std::size_t>(t)]) return;
         Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
         tile.masked = true;
-        store_matrix(b.R_sum, tile.base, gather<Pack<R>, true>(view(b), view(pairs), tile.base, tile.column).r);
+        for (std::int64_t i = tile.base; i < tile.base + b.layout.width; i += lanes<R>)
+            store_matrix(body.R_sum, i, gather<Pack<R>, true>(body, bonds, i, tile.column).r);
     });
 }
 
@@ -413,44 +420,47 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
 
 template <class R>
 StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick) {
-    exec::compile_for_device<GatherKernel<R>>();
-    const StressPass<R> pass(body, pairs, time, dt, kick);
-    const auto n = static_cast<std::int64_t>(body.layout.tiles.size());
-    std::vector<TileReport> reports(static_cast<std::size_t>(n));
-    exec::for_each(n, [&](std::int64_t t) { reports[static_cast<std::size_t>(t)] = pass(body.layout.tiles[static_cast<std::size_t>(t)]); });
+    const StressSums sums = with_laws<StressSums>(body.material, [&](const auto& laws) {
+        using Kernel = StressKernel<Pack<R>, std::remove_cvref_t<decltype(laws)>>;
+        return exec::launch_sum(packs(body), StressSums{}, Kernel(body, pairs, laws, time, dt, kick));
+    });
     StressReport out;
-    bool torn = false;
-    for (std::size_t t = 0; t < reports.size(); ++t) {
-        const TileReport& r = reports[t];
-        if (r.rate > out.rate) {
-            out.rate = r.rate;
-            out.fastest = body.layout.tiles[t].base;
-        }
-        out.zero_energy_lost += r.zero_energy_lost;
-        out.bulk_viscous += r.bulk_viscous;
-        torn = torn || r.torn;
-    }
-    if (torn) tear(body, pairs, out);
+    out.rate = sums.rate;
+    out.fastest = sums.rate > 0 ? sums.fastest : -1;
+    out.zero_energy_lost = sums.zero_energy_lost;
+    out.bulk_viscous = sums.bulk_viscous;
+    if (sums.torn > 0) tear(body, pairs, out);
     auto& T = body.T;
     fill_images(body.layout, {T[0].data(), T[1].data(), T[2].data(), T[3].data(), T[4].data(), T[5].data(), T[6].data(), T[7].data(),
                               T[8].data(), body.stiffness.data()});
     return out;
 }
 
-template <class R>
-double control_energy(const SolidBody<R>& b, const ColumnPairs<R>& pairs, double dt) {
-    using V = Pack<R>;
-    const SolidView<R> body = view(b);
-    const PairsView<R> bonds = view(pairs);
-    return exec::sum(static_cast<std::int64_t>(b.layout.tiles.size()), 0.0, [&](std::int64_t t) {
-        const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
-        const Sym3<V> k_inverse = (tile.masked ? gather<V, true>(body, bonds, tile.base, tile.column) : gather<V, false>(body, bonds, tile.base, tile.column)).k_inverse;
-        const V stored = load<V>(b.stiffness.data() + tile.base) * misfit<V>(body, bonds, tile, static_cast<R>(dt), k_inverse);
+namespace {
+
+/// What the control of a pack's particles has stored, J.
+template <class V>
+struct ControlKernel {
+    using R = ScalarOf<V>;
+    SolidView<R> b;
+    PairsView<R> pairs;
+    R dt;
+    BRISANCE_HD double operator()(std::int64_t n) const {
+        const Tile tile = b.pack(n);
+        const Sym3<V> k_inverse = (tile.masked ? gather<V, true>(b, pairs, tile.base, tile.column) : gather<V, false>(b, pairs, tile.base, tile.column)).k_inverse;
+        const V stored = load<V>(b.stiffness + tile.base) * misfit<V>(b, pairs, tile, dt, k_inverse);
         double sum = 0;
         for (int l = 0; l < lanes<R>; ++l)
-            if (b.layout.flags[static_cast<std::size_t>(tile.base + l)] & slot_own) sum += static_cast<double>(lane(stored, l));
-        return 0.5 * b.volume(b.layout.columns[static_cast<std::size_t>(tile.column)]) * sum;
-    });
+            if (b.flags[tile.base + l] & slot_own) sum += static_cast<double>(lane(stored, l));
+        return 0.5 * b.volume(b.columns[tile.column]) * sum;
+    }
+};
+
+}  // namespace
+
+template <class R>
+double control_energy(const SolidBody<R>& b, const ColumnPairs<R>& pairs, double dt) {
+    return exec::launch_sum(packs(b), ControlKernel<Pack<R>>{view(b), view(pairs), static_cast<R>(dt)});
 }
 
 template double control_energy(const SolidBody<double>&, const ColumnPairs<double>&, double);

@@ -25,6 +25,10 @@ struct StressReport {
     std::int64_t fastest = -1;   ///< first slot of the tile with that rate, for messages
 };
 
+/// Gives the periodic images of a new body what its particles have.
+template <class R>
+void complete(SolidBody<R>& body);
+
 /// Pass 1: deformation, law, stress at t_n+1. `dt` is the drift that led here, `kick` the mean of that drift and the one before:
 /// with them the energy of every particle follows the kicks exactly, for any sequence of steps (docs/theory/integration-and-energy.md).
 template <class R>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formulations/updated_lagrangian/updated_lagrangian.h"
 
+#include "exec/launch.h"
+#include "laws/laws.h"
 #include "math/kernel.h"
 #include "math/power.h"
 
@@ -34,53 +36,66 @@ void light(FluidBody& b, const std::vector<Detonator>& detonators) {
     }
 }
 
-void FluidSolver::state(FluidBody& b, double time) {
-    using V = Pack<double>;
-    constexpr int width = lanes<double>;
-    const double rho0 = b.material.density, floor = b.material.eos->pressure_floor();
-    const double h0 = b.options.smoothing * b.spacing;
-    const BurnLaw* burn = b.material.burn.get();
-    // complete when the front has passed by one and a half spacings, as in LS-DYNA's burn fraction F1
-    const double burn_rate = burn ? 2 * burn->speed / (3 * b.spacing) : 0;
-    const std::int64_t n = b.size();
-    exec::for_each((n + width - 1) / width, [&](std::int64_t block) {
-        const std::int64_t first = block * width, last = std::min(first + width, n);
+namespace {
+
+/// P, c, h, and the fraction burnt of a pack of particles.
+template <class Laws>
+struct StateKernel {
+    FluidView b;
+    Laws laws;
+    double rho0, h0, h_min, h_max;
+    double time, speed, cj_volume;  ///< of the burn; speed 0: inert
+    BRISANCE_HD void operator()(std::int64_t block) const {
+        using V = Pack<double>;
+        constexpr int width = lanes<double>;
+        const std::int64_t first = block * width, last = std::min(first + width, b.n);
         alignas(64) double mu[width], energy[width];
         for (int l = 0; l < width; ++l) {
-            const auto i = static_cast<std::size_t>(std::min(first + l, n - 1));
+            const std::int64_t i = std::min(first + l, b.n - 1);
             mu[l] = b.rho_now[i] / rho0 - 1;
             energy[l] = b.e_now[i] * rho0;
         }
-        EosTerms<V> t;
-        b.material.eos->terms(mu, t);
         const V e = load<V>(energy), m = load<V>(mu);
-        V p = eos_pressure(t, e);
-        p = (p > floor) ? p : broadcast<V>(std::max(floor, -1e6));
-        V c2 = eos_stiffness(t, m, e, p) / rho0;
-        for (std::int64_t k = first; k < last; ++k) {
-            const auto i = static_cast<std::size_t>(k);
-            const int l = static_cast<int>(k - first);
+        const EosTerms<V> t = laws.terms(m);
+        const V p = vmax(eos_pressure(t, e), broadcast<V>(laws.floor));
+        const V c2 = eos_stiffness(t, m, e, p) / rho0;
+        for (std::int64_t i = first; i < last; ++i) {
+            const int l = static_cast<int>(i - first);
             double pressure = lane(p, l), sound = std::sqrt(std::max(lane(c2, l), 1e-12));
-            if (burn) {
+            if (speed > 0) {
                 const double since = time - b.lit[i];
                 if (since > 0) {
-                    const double compression = (1 - rho0 / b.rho_now[i]) / (1 - burn->cj_volume);
-                    b.burnt[i] = std::clamp(std::max({since * burn_rate, compression, b.burnt[i]}), 0.0, 1.0);
+                    // complete when the front has passed by one and a half spacings, as in LS-DYNA's burn fraction F1
+                    const double burn_rate = 2 * speed / (3 * b.spacing), compression = (1 - rho0 / b.rho_now[i]) / (1 - cj_volume);
+                    b.burnt[i] = std::clamp(std::max(std::max(since * burn_rate, compression), b.burnt[i]), 0.0, 1.0);
                 }
                 pressure *= b.burnt[i];
-                sound = std::max(sound, burn->speed * (1 - b.burnt[i]));
+                sound = std::max(sound, speed * (1 - b.burnt[i]));
             }
             b.pressure[i] = pressure;
             b.sound[i] = sound;
             b.peak_pressure[i] = std::max(b.peak_pressure[i], pressure);
-            b.h[i] = h0 * std::clamp(std::cbrt((b.rho_start.empty() ? rho0 : b.rho_start[i]) / b.rho_now[i]), b.options.h_min, b.options.h_max);
+            b.h[i] = h0 * std::clamp(std::cbrt((b.rho_start ? b.rho_start[i] : rho0) / b.rho_now[i]), h_min, h_max);
         }
+    }
+};
+
+}  // namespace
+
+void FluidSolver::state(FluidBody& b, double time) {
+    const BurnLaw* burn = b.material.burn.get();
+    with_eos(b.material, [&](const auto& laws) {
+        using Kernel = StateKernel<std::remove_cvref_t<decltype(laws)>>;
+        exec::launch((b.size() + lanes<double> - 1) / lanes<double>,
+                     Kernel{view(b), laws, b.material.density, b.options.smoothing * b.spacing, b.options.h_min, b.options.h_max, time, burn ? burn->speed : 0, burn ? burn->cj_volume : 0});
     });
 }
 
+namespace {
+
 /// M^-1 as far as the neighbours bear it: an eigenvalue m becomes m (1 + e^2)/(m^2 + e^2). That is 1/m inside (m = 1), 1.88 in place of 2 at
 /// a plane surface (m = 1/2), never more than 3.4, and 0 for a particle alone.
-static Sym3<double> correction(const Sym3<double>& m) {
+BRISANCE_HD Sym3<double> correction(const Sym3<double>& m) {
     constexpr double e2 = 0.15 * 0.15;
     const Mat3<double> full{m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz};
     Sym3<double> square = symmetric_product(full, full);
@@ -90,8 +105,6 @@ static Sym3<double> correction(const Sym3<double>& m) {
     const Mat3<double> c = full * inverse(square);
     return {(1 + e2) * c.xx, (1 + e2) * c.yy, (1 + e2) * c.zz, (1 + e2) * c.xy, (1 + e2) * c.xz, (1 + e2) * c.yz};
 }
-
-namespace {
 
 /// Particle i and a pack of its neighbours: grad_i W = -weight d.
 template <class V>
@@ -118,125 +131,132 @@ BRISANCE_INLINE Pairs<V> pairs(const double* me, const double* records, const st
     return p;
 }
 
-}  // namespace
+/// Places, supports and motion of the entries, and a pack behind the last: out of everybody's reach, and nothing there.
+struct MotionKernel {
+    FluidView b;
+    FluidWork w;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        double record[8] = {1e50, 0, 0, 1, 0, 0, 0, 0};
+        if (k < w.grid.entries) {
+            const std::int32_t e = w.grid.index[k];
+            const std::int64_t i = w.particle(k);
+            const double now[8] = {w.points.place[0][e], w.points.place[1][e], w.points.place[2][e] + w.grid.shift[k], b.h[i], b.mass[i] / b.rho_now[i],
+                                   w.sign(k, 0) * b.v_now[0][i], w.sign(k, 1) * b.v_now[1][i], w.sign(k, 2) * b.v_now[2][i]};
+            for (int c = 0; c < 8; ++c) record[c] = now[c];
+        } else {
+            const double unit[8] = {1, 1, 0, 0, 0, 0, 0, 0};
+            for (int c = 0; c < 8; ++c) w.response[8 * k + c] = unit[c];
+        }
+        w.x[k] = record[0];
+        w.y[k] = record[1];
+        w.z[k] = record[2];
+        w.h[k] = record[3];
+        for (int c = 0; c < 8; ++c) w.motion[8 * k + c] = record[c];
+    }
+};
 
-void FluidSolver::responses(FluidBody& b) {
-    using V = Pack<double>;
-    const std::int64_t entries = grid_.entries();
-    q_.resize(static_cast<std::size_t>(b.size()));
-    exec::for_each(entries, [&](std::int64_t k) {
-        if (image(k)) return;
-        const std::size_t i = particle(k);
-        const double* me = &motion_[8 * static_cast<std::size_t>(k)];
+struct Value {
+    const double* a;
+    BRISANCE_HD double operator()(std::int64_t i) const { return a[i]; }
+};
+struct Count {
+    const std::int32_t* a;
+    BRISANCE_HD std::int64_t operator()(std::int64_t i) const { return a[i]; }
+};
+
+struct OwnEntries {
+    FluidWork w;
+    BRISANCE_HD bool operator()(std::int64_t k) const { return !w.image(k); }
+};
+
+/// First pass: L, the divergence, and with it d rho/dt and q.
+struct DivergenceKernel {
+    FluidView b;
+    FluidWork w;
+    double linear, quadratic;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        using V = Pack<double>;
+        if (w.image(k)) return;
+        const std::int64_t i = w.particle(k);
+        const double* me = w.motion + 8 * k;
+        const double* motion = w.motion;
         Sym3<V> m;
         Mat3<V> g;
-        neighbours_.packs(k, [&](const std::int32_t* list) {
-            const Pairs<V> p = pairs<V>(me, motion_.data(), list);
-            const Vec3<V> w = (p.volume * p.weight) * p.d;
-            m.xx += w.x * p.d.x;
-            m.yy += w.y * p.d.y;
-            m.zz += w.z * p.d.z;
-            m.xy += w.x * p.d.y;
-            m.xz += w.x * p.d.z;
-            m.yz += w.y * p.d.z;
-            g.xx += w.x * p.v.x;
-            g.xy += w.x * p.v.y;
-            g.xz += w.x * p.v.z;
-            g.yx += w.y * p.v.x;
-            g.yy += w.y * p.v.y;
-            g.yz += w.y * p.v.z;
-            g.zx += w.z * p.v.x;
-            g.zy += w.z * p.v.y;
-            g.zz += w.z * p.v.z;
+        w.neighbours.packs(k, [&](const std::int32_t* list) {
+            const Pairs<V> p = pairs<V>(me, motion, list);
+            const Vec3<V> u = (p.volume * p.weight) * p.d;
+            m.xx += u.x * p.d.x;
+            m.yy += u.y * p.d.y;
+            m.zz += u.z * p.d.z;
+            m.xy += u.x * p.d.y;
+            m.xz += u.x * p.d.z;
+            m.yz += u.y * p.d.z;
+            g.xx += u.x * p.v.x;
+            g.xy += u.x * p.v.y;
+            g.xz += u.x * p.v.z;
+            g.yx += u.y * p.v.x;
+            g.yy += u.y * p.v.y;
+            g.yz += u.y * p.v.z;
+            g.zx += u.z * p.v.x;
+            g.zy += u.z * p.v.y;
+            g.zz += u.z * p.v.z;
         });
         const Sym3<double> l = correction({hsum(m.xx), hsum(m.yy), hsum(m.zz), hsum(m.xy), hsum(m.xz), hsum(m.yz)});
         const double divergence = l.xx * hsum(g.xx) + l.yy * hsum(g.yy) + l.zz * hsum(g.zz) + l.xy * hsum(g.xy + g.yx) + l.xz * hsum(g.xz + g.zx) +
                                   l.yz * hsum(g.yz + g.zy);
         const double closing = -std::min(divergence, 0.0) * me[3];
-        correction_[i] = l;
+        w.correction[i] = l;
         b.rho_rate[i] = -divergence;
-        q_[i] = b.rho_now[i] * closing * (b.options.quadratic * closing + b.options.linear * b.sound[i]);
-    });
-    exec::for_each(entries, [&](std::int64_t k) {
-        const std::size_t i = particle(k);
-        const double x = sign(k, 0), y = sign(k, 1), z = sign(k, 2);
+        w.q[i] = b.rho_now[i] * closing * (quadratic * closing + linear * b.sound[i]);
+    }
+};
+
+/// rho, c, (P + q) L of every entry.
+struct ResponseKernel {
+    FluidView b;
+    FluidWork w;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        const std::int64_t i = w.particle(k);
+        const double x = w.sign(k, 0), y = w.sign(k, 1), z = w.sign(k, 2);
         const double turn[6] = {1, 1, 1, x * y, x * z, y * z};
-        double* r = &response_[8 * static_cast<std::size_t>(k)];
+        double* r = w.response + 8 * k;
         r[0] = b.rho_now[i];
         r[1] = b.sound[i];
-        for (std::size_t a = 0; a < 6; ++a) r[2 + a] = turn[a] * (b.pressure[i] + q_[i]) * component(correction_[i], a);
-    }, 1024);
-}
-
-FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
-    using V = Pack<double>;
-    constexpr int width = lanes<double>;
-    const std::int64_t n = b.size();
-    double h_max = 0;
-    for (double h : b.h) h_max = std::max(h_max, h);
-    // Cells of half the largest support: few candidates per particle, and not many cells to look into.
-    points_.build(b, 2 * h_max);
-    grid_.build(points_.place(0), points_.place(1), points_.place(2), points_.size(), std::max(h_max, 1e-9), 2 * h_max, b.z_low, b.period);
-    const std::int64_t entries = grid_.entries();
-    const auto padded = static_cast<std::size_t>(entries + width);
-    for (auto* a : {&sx_, &sy_, &sz_, &sh_}) a->resize(padded);
-    for (auto* a : {&motion_, &response_}) a->resize(8 * padded);
-    exec::for_each(entries, [&](std::int64_t k) {
-        const auto s = static_cast<std::size_t>(k), e = static_cast<std::size_t>(grid_.index(k)), i = particle(k);
-        sx_[s] = points_.place(0)[e];
-        sy_[s] = points_.place(1)[e];
-        sz_[s] = points_.place(2)[e] + grid_.shift(k);
-        sh_[s] = b.h[i];
-        const double record[8] = {sx_[s], sy_[s], sz_[s], sh_[s], b.mass[i] / b.rho_now[i], sign(k, 0) * b.v_now[0][i], sign(k, 1) * b.v_now[1][i], sign(k, 2) * b.v_now[2][i]};
-        std::copy(record, record + 8, &motion_[8 * s]);
-    }, 1024);
-    for (std::size_t s = static_cast<std::size_t>(entries); s < padded; ++s) {  // out of everybody's reach, and nothing there
-        constexpr double far = 1e50, nothing[8] = {far, 0, 0, 1, 0, 0, 0, 0}, unit[8] = {1, 1, 0, 0, 0, 0, 0, 0};
-        sx_[s] = far;
-        sy_[s] = sz_[s] = 0;
-        sh_[s] = 1;
-        std::copy(nothing, nothing + 8, &motion_[8 * s]);
-        std::copy(unit, unit + 8, &response_[8 * s]);
+        for (int a = 0; a < 6; ++a) r[2 + a] = turn[a] * (b.pressure[i] + w.q[i]) * component(w.correction[i], static_cast<std::size_t>(a));
     }
-    mu_.resize(static_cast<std::size_t>(n));
-    correction_.resize(static_cast<std::size_t>(n));
-    neighbours_.build(grid_, sx_.data(), sy_.data(), sz_.data(), sh_.data(), h_max, [&](std::int64_t k) { return !image(k); });
-    responses(b);
+};
 
-    // most fluids bear no tension: then there is nothing to resist
-    const bool tension = b.options.artificial_stress && std::any_of(b.pressure.begin(), b.pressure.end(), [](double p) { return p < 0; });
-    const auto resistance = [&](std::int64_t k) {  // -eps sigma/rho^2
-        const std::size_t i = particle(k);
-        return b.pressure[i] < 0 ? b.options.epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0.0;
-    };
-    const double alpha = b.options.alpha, beta = b.options.beta;
-    struct Acc {
-        Powers p;
-        Acc& operator+=(const Acc& o) {
-            p.viscous += o.p.viscous;
-            p.artificial += o.p.artificial;
-            return *this;
-        }
-    };
-    const Acc total = exec::sum(entries, Acc{}, [&](std::int64_t k) {
-        if (image(k)) return Acc{};
-        const std::size_t i = particle(k);
-        const double *me = &motion_[8 * static_cast<std::size_t>(k)], *mine = &response_[8 * static_cast<std::size_t>(k)];
+/// Second pass: the rates of v and e. Gives the powers.
+struct RatesKernel {
+    FluidView b;
+    FluidWork w;
+    double alpha, beta, epsilon, exponent;
+    bool tension;
+    BRISANCE_HD double resistance(std::int64_t k) const {  // -eps sigma/rho^2
+        const std::int64_t i = w.particle(k);
+        return b.pressure[i] < 0 ? epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0.0;
+    }
+    BRISANCE_HD FluidSolver::Powers operator()(std::int64_t k) const {
+        using V = Pack<double>;
+        constexpr int width = lanes<double>;
+        if (w.image(k)) return {};
+        const std::int64_t i = w.particle(k);
+        const double *me = w.motion + 8 * k, *mine = w.response + 8 * k;
         const double rho = mine[0], c = mine[1], r_i = tension ? resistance(k) : 0.0;
         V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{};
-        neighbours_.packs(k, [&](const std::int32_t* list) {
-            const Pairs<V> p = pairs<V>(me, motion_.data(), list);
+        w.neighbours.packs(k, [&](const std::int32_t* list) {
+            const Pairs<V> p = pairs<V>(me, w.motion, list);
             V other[8];  // rho, c, (P + q) L
-            load_records<V>(response_.data(), list, other);
+            load_records<V>(w.response, list, other);
             const V vr = dot(p.v, p.d), mj = p.volume * other[0];
             const V mu = vmin(p.h * vr / (p.r2 + 0.01 * p.h * p.h), V{});
             const V pi = 2.0 * mu * (beta * mu - alpha * (0.5 * (c + other[1]))) / (rho + other[0]);
             V bracket = pi;
             if (tension) {
                 alignas(64) double r_j[width];
-                for (int l = 0; l < width; ++l) r_j[l] = list[l] < entries ? resistance(list[l]) : 0.0;
-                const V w = kernel::shape(p.u), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
-                const V extra = -(r_i + load<V>(r_j)) * power(w / vmax(w0, broadcast<V>(1e-6)), b.options.n);
+                for (int l = 0; l < width; ++l) r_j[l] = list[l] < w.grid.entries ? resistance(list[l]) : 0.0;
+                const V wi = kernel::shape(p.u), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
+                const V extra = -(r_i + load<V>(r_j)) * power(wi / vmax(w0, broadcast<V>(1e-6)), exponent);
                 bracket += extra;
                 artificial -= 0.5 * mj * extra * p.weight * vr;
             }
@@ -254,22 +274,51 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
         b.acceleration[0][i] = hsum(ax) / rho;
         b.acceleration[1][i] = hsum(ay) / rho;
         b.acceleration[2][i] = hsum(az) / rho;
-        b.e_rate[i] = (b.pressure[i] + q_[i]) / rho * b.rho_rate[i] + hsum(heat);
-        mu_[i] = hmax(mu_largest);
-        Acc a;
-        a.p.viscous = b.mass[i] * (hsum(viscous) + q_[i] / rho * b.rho_rate[i]);
-        a.p.artificial = b.mass[i] * hsum(artificial);
-        return a;
-    });
-    return total.p;
+        b.e_rate[i] = (b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + hsum(heat);
+        w.mu[i] = hmax(mu_largest);
+        return {b.mass[i] * (hsum(viscous) + w.q[i] / rho * b.rho_rate[i]), b.mass[i] * hsum(artificial)};
+    }
+};
+
+}  // namespace
+
+FluidWork FluidSolver::sort(const FluidBody& b) {
+    const FluidView body = view(b);
+    const double h_max = exec::launch_max(body.n, 0.0, Value{body.h});
+    // Cells of half the largest support: few candidates per particle, and not many cells to look into.
+    points_.build(b, 2 * h_max);
+    grid_.build(points_.place(0), points_.place(1), points_.place(2), points_.size(), std::max(h_max, 1e-9), 2 * h_max, b.z_low, b.period);
+    const auto padded = static_cast<std::size_t>(grid_.entries() + lanes<double>), n = static_cast<std::size_t>(body.n);
+    for (auto* a : {&x_, &y_, &z_, &h_}) make_room(*a, padded);
+    for (auto* a : {&motion_, &response_}) make_room(*a, 8 * padded);
+    for (auto* a : {&mu_, &q_}) make_room(*a, n);
+    if (correction_.size() != n) {
+        const exec::HostAccess host;
+        correction_.resize(n);
+    }
+    FluidWork w{grid_.view(), points_.view(), {}, x_.data(), y_.data(), z_.data(), h_.data(), motion_.data(), response_.data(), correction_.data(), mu_.data(), q_.data(), body.n};
+    exec::launch(static_cast<std::int64_t>(padded), MotionKernel{body, w}, 1024);
+    neighbours_.build(w.grid, {w.x, w.y, w.z, w.h, h_max}, OwnEntries{w});
+    w.neighbours = neighbours_.view();
+    return w;
 }
 
-void FluidSolver::kick(FluidBody& b, double kick, const double* fx, const double* fy, const double* fz) {
-    exec::for_each(b.size(), [&](std::int64_t k) {
-        const auto i = static_cast<std::size_t>(k);
+FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
+    const FluidView body = view(b);
+    const FluidWork w = sort(b);
+    exec::launch(w.grid.entries, DivergenceKernel{body, w, b.options.linear, b.options.quadratic});
+    exec::launch(w.grid.entries, ResponseKernel{body, w}, 1024);
+    // most fluids bear no tension: then there is nothing to resist
+    const bool tension = b.options.artificial_stress && exec::launch_max(body.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return -body.pressure[i]; }) > 0;
+    return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel{body, w, b.options.alpha, b.options.beta, b.options.epsilon, b.options.n, tension});
+}
+
+void FluidSolver::kick(FluidBody& body, double kick, const double* fx, const double* fy, const double* fz) {
+    const FluidView b = view(body);
+    exec::launch(b.n, BRISANCE_KERNEL(std::int64_t i) {
         const double outer[3] = {fx[i] / b.mass[i], fy[i] / b.mass[i], fz[i] / b.mass[i]};
         double missed = 0;
-        for (std::size_t a = 0; a < 3; ++a) {
+        for (int a = 0; a < 3; ++a) {
             const double inner = b.acceleration[a][i], before = b.v[a][i];
             b.acceleration[a][i] += outer[a];
             b.v[a][i] += kick * b.acceleration[a][i];
@@ -281,10 +330,10 @@ void FluidSolver::kick(FluidBody& b, double kick, const double* fx, const double
     }, 1024);
 }
 
-void FluidSolver::drift(FluidBody& b, double dt) {
-    exec::for_each(b.size(), [&](std::int64_t k) {
-        const auto i = static_cast<std::size_t>(k);
-        for (std::size_t a = 0; a < 3; ++a) {
+void FluidSolver::drift(FluidBody& body, double dt) {
+    const FluidView b = view(body);
+    exec::launch(b.n, BRISANCE_KERNEL(std::int64_t i) {
+        for (int a = 0; a < 3; ++a) {
             b.x[a][i] += dt * b.v[a][i];
             b.v_now[a][i] = b.v[a][i] + 0.5 * dt * b.acceleration[a][i];
         }
@@ -298,23 +347,27 @@ void FluidSolver::drift(FluidBody& b, double dt) {
     }, 1024);
 }
 
-double FluidSolver::stable_rate(const FluidBody& b) const {
-    return exec::max(b.size(), 0.0, [&](std::int64_t k) { return stable_rate(b, static_cast<std::size_t>(k)); });
+namespace {
+
+struct StableRate {
+    FluidView b;
+    const double* mu;
+    double alpha, beta, linear, quadratic;
+    BRISANCE_HD double operator()(std::int64_t i) const {
+        const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
+                                   b.acceleration[2][i] * b.acceleration[2][i]);
+        const double closing = std::max(b.rho_rate[i], 0.0) * b.h[i];
+        return std::max((b.sound[i] * (1 + 0.6 * alpha + 1.2 * linear) + 0.6 * beta * mu[i] + 1.2 * quadratic * closing) / b.h[i], std::sqrt(a / b.h[i]));
+    }
+};
+StableRate stable_rate_of(const FluidBody& b, const Array<double>& mu) {
+    return {view(b), mu.data(), b.options.alpha, b.options.beta, b.options.linear, b.options.quadratic};
 }
 
-double FluidSolver::stable_rate(const FluidBody& b, std::size_t i) const {
-    const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
-                               b.acceleration[2][i] * b.acceleration[2][i]);
-    const FluidOptions& o = b.options;
-    const double closing = std::max(b.rho_rate[i], 0.0) * b.h[i];
-    return std::max((b.sound[i] * (1 + 0.6 * o.alpha + 1.2 * o.linear) + 0.6 * o.beta * mu_[i] + 1.2 * o.quadratic * closing) / b.h[i],
-                    std::sqrt(a / b.h[i]));
-}
-
-BodySums FluidSolver::sums(const FluidBody& b) const {
-    const double rho0 = b.material.density, e0 = b.material.eos->initial_energy() / rho0;
-    return exec::sum(b.size(), BodySums{}, [&](std::int64_t k) {
-        const auto i = static_cast<std::size_t>(k);
+struct FluidSumsKernel {
+    FluidView b;
+    double chemical;  ///< kJ/g, before the burn; 0: inert
+    BRISANCE_HD BodySums operator()(std::int64_t i) const {
         BodySums s;
         const double m = b.mass[i], vx = b.v[0][i], vy = b.v[1][i], vz = b.v[2][i];
         s.mass = m;
@@ -323,9 +376,31 @@ BodySums FluidSolver::sums(const FluidBody& b) const {
         s.px = m * vx;
         s.py = m * vy;
         s.pz = m * vz;
-        if (b.material.burn) s.unburnt = m * e0 * (1 - b.burnt[i]);
+        s.unburnt = m * chemical * (1 - b.burnt[i]);
         return s;
-    });
+    }
+};
+
+}  // namespace
+
+double FluidSolver::stable_rate(const FluidBody& b) const { return exec::launch_max(b.size(), 0.0, stable_rate_of(b, mu_)); }
+
+std::size_t FluidSolver::fastest(const FluidBody& b) const {
+    const exec::HostAccess host;
+    const StableRate rate = stable_rate_of(b, mu_);
+    std::int64_t most = 0;
+    for (std::int64_t i = 1; i < b.size(); ++i)
+        if (rate(i) > rate(most)) most = i;
+    return static_cast<std::size_t>(most);
+}
+
+double FluidSolver::neighbours_per_particle() const { 
+    const NeighbourListsView& v = neighbours_.view();
+    return static_cast<double>(exec::launch_sum(v.entries, std::int64_t{0}, Count{v.count})) / static_cast<double>(std::max<std::size_t>(correction_.size(), 1));
+}
+
+BodySums FluidSolver::sums(const FluidBody& b) const {
+    return exec::launch_sum(b.size(), BodySums{}, FluidSumsKernel{view(b), b.material.burn ? b.material.eos->initial_energy() / b.material.density : 0});
 }
 
 }  // namespace brisance

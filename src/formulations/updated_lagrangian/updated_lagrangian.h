@@ -15,10 +15,30 @@
 #pragma once
 
 #include "neighbours/neighbour_lists.h"
+#include "math/vec.h"
 #include "particles/body_sums.h"
 #include "particles/mirrored.h"
 
 namespace brisance {
+
+/// What a fluid's step makes besides its body, as kernels take it. Entries: particles and their images, in the order of the grid.
+struct FluidWork {
+    CellGridView grid;
+    MirroredView points;
+    NeighbourListsView neighbours;
+    double *x, *y, *z, *h;         ///< of the entries, h for the search
+    double *motion, *response;     ///< records of the entries: x y z h, m/rho, v; and: rho, c, (P + q) L
+    Sym3<double>* correction;      ///< L of the particles
+    double *mu, *q;                ///< of the particles: largest |mu|, and bulk viscosity, GPa
+    std::int64_t n;                ///< particles
+
+    /// Whether an entry of the grid stands for another particle: beyond the period, or beyond a mirror.
+    BRISANCE_HD bool image(std::int64_t k) const { return grid.shift[k] != 0 || grid.index[k] >= n; }
+    /// The particle that an entry stands for.
+    BRISANCE_HD std::int64_t particle(std::int64_t k) const { return points.particle(grid.index[k]); }
+    /// Signs of a vector's components at an entry: -1 across a mirror.
+    BRISANCE_HD double sign(std::int64_t k, int axis) const { return points.sign(grid.index[k], axis); }
+};
 
 class FluidSolver {
 public:
@@ -26,7 +46,14 @@ public:
     void state(FluidBody& body, double time);
     /// Neighbours, and the rates of v, rho, e at t_n.
     /// Returns the viscous power and the power of the artificial stress, W = J/us.
-    struct Powers { double viscous = 0, artificial = 0; };
+    struct Powers {
+        double viscous = 0, artificial = 0;
+        BRISANCE_HD Powers& operator+=(const Powers& o) {
+            viscous += o.viscous;
+            artificial += o.artificial;
+            return *this;
+        }
+    };
     Powers rates(FluidBody& body);
     /// v, rho, e over a kick, with the outer forces (mN) on each particle. The heat of a pair was taken with velocities extrapolated to
     /// t_n; what its force did was with the mean of before and after the kick. The difference, f_i.(v_mean - v_now), goes back into e_i,
@@ -36,32 +63,21 @@ public:
     void drift(FluidBody& body, double dt);
     /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us.
     double stable_rate(const FluidBody& body) const;
-    /// The same of one particle.
-    double stable_rate(const FluidBody& body, std::size_t i) const;
+    /// The particle that holds it.
+    std::size_t fastest(const FluidBody& body) const;
     BodySums sums(const FluidBody& body) const;
     /// Mean number of neighbours in the last rates().
-    double neighbours_per_particle() const { return static_cast<double>(neighbours_.bonds()) / static_cast<double>(std::max<std::size_t>(correction_.size(), 1)); }
+    double neighbours_per_particle() const;
 
 private:
+    FluidWork sort(const FluidBody& body);
+
     CellGrid grid_;
-    /// First pass: L, the divergence, and with it d rho/dt and q; then (P + q) L of every entry.
-    void responses(FluidBody& body);
-
-    /// Whether an entry of the grid stands for another particle: beyond the period, or beyond a mirror.
-    bool image(std::int64_t k) const { return grid_.image(k) || static_cast<std::size_t>(grid_.index(k)) >= correction_.size(); }
-    /// The particle that an entry stands for.
-    std::size_t particle(std::int64_t k) const { return points_.particle(static_cast<std::size_t>(grid_.index(k))); }
-    /// Signs of a vector's components at an entry: -1 across a mirror.
-    double sign(std::int64_t k, std::size_t axis) const { return points_.sign(static_cast<std::size_t>(grid_.index(k)), axis); }
-
     Mirrored points_;
     NeighbourLists neighbours_;
-    Array<double> sx_, sy_, sz_, sh_;  ///< of the grid's entries
-    Array<double> motion_;    ///< records of the entries: x y z h, m/rho, v
-    Array<double> response_;  ///< and: rho, c, (P + q) L
-    std::vector<Sym3<double>> correction_;  ///< L
-    Array<double> mu_;  ///< largest |mu| of each particle
-    Array<double> q_;   ///< bulk viscosity of each particle, GPa
+    Array<double> x_, y_, z_, h_, motion_, response_;
+    Array<Sym3<double>> correction_;
+    Array<double> mu_, q_;
 };
 
 /// Lighting times from detonation points: time + distance/D in the initial configuration.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cubic equation of state of Johnson-Holmquist 2 without its bulking term:
 //   P = K1 mu + K2 mu^2 + K3 mu^3  (mu > 0),   P = K1 mu  (mu <= 0).      Johnson & Holmquist 1994
+#pragma once
+
 #include "laws/eos.h"
 
 namespace brisance {
-namespace {
 
 struct Polynomial {
     static constexpr const char* name = "polynomial";
@@ -26,7 +27,4 @@ struct Polynomial {
     double two_k2, three_k3;  // formed once: 2 k2 contracted into the sum would give a point other bits than a pack
 };
 
-const bool registered = register_eos<Polynomial>();
-
-}  // namespace
 }  // namespace brisance

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // P = (gamma - 1) rho e = (gamma - 1) (1 + mu) E, E per initial volume.
+#pragma once
+
 #include "laws/eos.h"
 
 namespace brisance {
-namespace {
 
 struct IdealGas {
     static constexpr const char* name = "ideal_gas";
@@ -24,7 +25,4 @@ struct IdealGas {
     double g1, e0;
 };
 
-const bool registered = register_eos<IdealGas>();
-
-}  // namespace
 }  // namespace brisance

@@ -3,12 +3,13 @@
 // Radial return by bisection-guarded Newton on  s_eq - 3 G de - sigma_y(eps_p + de) = 0;  the rate is the total deviatoric one of the step.
 // Heating: dT = chi sigma_y de / (rho_0 c_v), sigma_y the mean over the step. Damage D1..D5 as in Johnson & Cook 1985; off where D1..D5 are
 // all zero. A failure strain that is not positive fails at once.
+#pragma once
+
 #include "base/error.h"
 #include "laws/strength.h"
 #include "math/power.h"
 
 namespace brisance {
-namespace {
 
 struct JohnsonCook {
     static constexpr const char* name = "johnson_cook";
@@ -107,7 +108,4 @@ struct JohnsonCook {
     double d[5];
 };
 
-const bool registered = register_strength<JohnsonCook>();
-
-}  // namespace
 }  // namespace brisance

@@ -15,6 +15,8 @@
 //
 // The equation of state of the material has to be the elastic one, P = K_e mu: this law adds what compaction changes of it, as the bulking
 // of JH-2 does. When damage grows the deviator goes down to the surface of the new damage in the same step, without plastic strain for it.
+#pragma once
+
 #include "base/error.h"
 #include "base/text.h"
 #include "laws/strength.h"
@@ -23,7 +25,6 @@
 #include <cmath>
 
 namespace brisance {
-namespace {
 
 struct Hjc {
     static constexpr const char* name = "hjc";
@@ -166,7 +167,4 @@ struct Hjc {
     double two_K2, three_K3, shear;  // formed once: contracted into a sum they would give a point other bits than a pack
 };
 
-const bool registered = register_strength<Hjc>();
-
-}  // namespace
 }  // namespace brisance

@@ -12,16 +12,16 @@
 // Order of the damage step. When damage grows, the deviator is taken down to the surface of the *new* damage inside the step, and
 // that drop is not plastic strain: its energy feeds the bulking. Counting it as plastic strain in the next step, as several public
 // codes do, makes damage snap through and misses the curves of the 1994 paper (tests/unit/jh2_test.cpp shows both).
+#pragma once
+
 #include "base/error.h"
 #include "base/text.h"
 #include "laws/strength.h"
 #include "math/power.h"
 
-
 #include <cmath>
 
 namespace brisance {
-namespace {
 
 struct Jh2 {
     static constexpr const char* name = "jh2";
@@ -154,7 +154,4 @@ struct Jh2 {
     double phel = 0, shel = 0, phel_of_eos = 0;
 };
 
-const bool registered = register_strength<Jh2>();
-
-}  // namespace
 }  // namespace brisance

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // P = C0 + C1 mu + C2 mu^2 + C3 mu^3 + (C4 + C5 mu + C6 mu^2) E, with C2 = C6 = 0 in expansion.      Eq. 9 of the paper
 // E: internal energy per initial volume. C4 = C5 = gamma - 1 and all others zero: an ideal gas.
+#pragma once
+
 #include "laws/eos.h"
 
 namespace brisance {
-namespace {
 
 struct LinearPolynomial {
     static constexpr const char* name = "linear_polynomial";
@@ -33,7 +34,4 @@ struct LinearPolynomial {
     double c[7], e0;
 };
 
-const bool registered = register_eos<LinearPolynomial>();
-
-}  // namespace
 }  // namespace brisance

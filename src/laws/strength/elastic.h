@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hypoelastic: s grows with 2 G dev d, without limit. For elastic verification. It never damages of itself; its column holds what the
 // strengths of [part.NAME.failure] say.
+#pragma once
+
 #include "laws/strength.h"
 
 namespace brisance {
-namespace {
 
 struct Elastic {
     static constexpr const char* name = "elastic";
@@ -25,7 +26,4 @@ struct Elastic {
     double G;
 };
 
-const bool registered = register_strength<Elastic>();
-
-}  // namespace
 }  // namespace brisance

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jones-Wilkins-Lee, for detonation products (Eq. 11 of the paper, with E per initial volume, as LS-DYNA has it):
 //   P = A (1 - omega/(R1 V)) e^(-R1 V) + B (1 - omega/(R2 V)) e^(-R2 V) + omega E / V,   V = 1/(1 + mu).
+#pragma once
+
 #include "laws/eos.h"
 #include "math/power.h"
 
 namespace brisance {
-namespace {
 
 struct Jwl {
     static constexpr const char* name = "jwl";
@@ -36,7 +37,4 @@ struct Jwl {
     double A, B, r1, r2, omega, e0;
 };
 
-const bool registered = register_eos<Jwl>();
-
-}  // namespace
 }  // namespace brisance

@@ -4,10 +4,11 @@
 //   mu <= 0: P = rho_0 C^2 mu + (Gamma_0 + a mu) E
 // With S2 = S3 = 0 this is U_s = C + S1 u_p on the Hugoniot (Eq. 10 of the paper). The pole of the denominator is kept away from:
 // mu is taken no further than where the denominator (before squaring) is 0.05.
+#pragma once
+
 #include "laws/eos.h"
 
 namespace brisance {
-namespace {
 
 struct MieGruneisen {
     static constexpr const char* name = "mie_gruneisen";
@@ -59,7 +60,4 @@ struct MieGruneisen {
     double k, s1, s2, s3, gamma0, a, e0, cutoff, mu_max;
 };
 
-const bool registered = register_eos<MieGruneisen>();
-
-}  // namespace
 }  // namespace brisance
