@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions that the loops of a step take, counted by valgrind on small cases and held against tests/instructions.json.
+"""Instructions that the loops of a step take, counted by valgrind on small bodies and held against tests/instructions.json.
 
     tools/instructions.py             exit code 1 where a loop takes over 5 % more than is on record
     tools/instructions.py --accept    what is counted now is the record; say in the commit why it grew
 
 The program is that of the preset portable, since valgrind knows no AVX-512, and one compiler's numbers say nothing of another's. Exit code 77:
-no valgrind, or another compiler than the record's. Two minutes, a cold build not counted.
+no valgrind, or another compiler than the record's. Half a minute, the build not counted.
 """
 
 import argparse
@@ -21,37 +21,25 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 RECORD = ROOT / "tests" / "instructions.json"
 MARGIN = 0.05
-STEP, CONTACT = "void brisance::step<double>*", "void brisance::outer_forces<double>*"
-BLAST = ["rock.shape.cylinder.radius=\"11 mm\"", "rock.spacing_far=\"0.7 mm\"", "slice.layers=2", "rock.spacing=\"0.5 mm\"", "analysis.zones=[\"0 mm\",\"6 mm\",\"11 mm\"]"]
-# loop: case, preset, settings, end, function that is counted
-LOOPS = {
-    "rock": ("cases/bench/rock.toml", None, ["rock.spacing=\"1.2 mm\""], "1.5 us", STEP),
-    "copper": ("cases/bench/copper.toml", None, ["copper.spacing=\"1.2 mm\""], "1.0 us", STEP),
-    "fluid": ("cases/bench/water.toml", None, ["water.spacing=\"1.2 mm\""], "1.0 us", STEP),
-    "contact": ("cases/blast/air_copper.toml", "quick", BLAST, "0.2 us", CONTACT),
-}
+LOOPS = ("rock", "copper", "fluid", "contact")
 
 
 def build():
-    """The program of the preset portable."""
-    for command in (["cmake", "--preset", "portable", "-DBRISANCE_TESTS=OFF"], ["cmake", "--build", "--preset", "portable", "--target", "brisance"]):
+    """The loops of tests/instructions/loops.cpp in the preset portable, and the compiler that made them."""
+    for command in (["cmake", "--preset", "portable", "-DBRISANCE_TESTS=ON", "-DBRISANCE_UNIT_TESTS=none"], ["cmake", "--build", "--preset", "portable", "--target", "loops"]):
         subprocess.run(command, cwd=ROOT, check=True, stdout=sys.stderr)
-    return ROOT / "build" / "portable" / "brisance"
+    cache = (ROOT / "build/portable/CMakeCache.txt").read_text()
+    compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache, re.M)[1]
+    return ROOT / "build/portable/loops", subprocess.run([compiler, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
 
 
 def count(program, loop, folder):
-    """Instructions inside the function, all that it calls included."""
-    case, preset, settings, until, function = LOOPS[loop]
+    """Instructions inside `counted`, all that it calls included."""
     trace = folder / f"{loop}.callgrind"
-    command = ["valgrind", "--tool=callgrind", f"--toggle-collect={function}", f"--callgrind-out-file={trace}", str(program), "run", str(ROOT / case), "--until", until,
-               "--threads", "1", "--quiet", "--no-report", "--out", str(folder / loop)]
-    command += ["--preset", preset] if preset else []
-    for setting in settings:
-        command += ["--set", setting]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=counted*", f"--callgrind-out-file={trace}", str(program), loop], capture_output=True, text=True)
     total = re.search(r"^(?:summary|totals): (\d+)", trace.read_text() if trace.exists() else "", re.M)
     if done.returncode != 0 or not total or int(total[1]) == 0:
-        sys.exit(f"{loop}: nothing was counted (exit code {done.returncode})\n{done.stderr[-2000:]}")
+        sys.exit(f"{loop}: nothing was counted (exit code {done.returncode})\n{done.stdout}{done.stderr[-2000:]}")
     return int(total[1])
 
 
@@ -62,8 +50,7 @@ def main():
     if not shutil.which("valgrind"):
         print("valgrind is not here; on Debian: apt install valgrind")
         return 77
-    program = build()
-    compiler = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=True).stdout.split(", ")[1]
+    program, compiler = build()
     record = json.loads(RECORD.read_text()) if RECORD.exists() else {}
     if not accept and record.get("compiler") != compiler:
         print(f"the record is of {record.get('compiler')}, this is {compiler}: nothing to compare")
