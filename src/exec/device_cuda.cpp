@@ -26,6 +26,9 @@ namespace cuda {
 void check(cudaError_t code, const char* what) {
     if (code != cudaSuccess) throw ResourceError(std::string("the device failed (") + what + "): " + cudaGetErrorString(code));
 }
+void settle() {
+    if (phases == 0) check(cudaDeviceSynchronize(), "kernels");
+}
 void* scratch(int slot, std::size_t bytes) {
     static void* memory[5] = {};
     static std::size_t size[5] = {};

@@ -14,6 +14,8 @@ namespace brisance::exec::cuda {
 
 /// Throws ResourceError with the device's own words unless `code` is success.
 void check(cudaError_t code, const char* what);
+/// Outside of a DevicePhase the processor may read what it likes at once: waits.
+void settle();
 /// Scratch memory of the device, one block per `slot`, kept and grown; what was in it may be lost.
 void* scratch(int slot, std::size_t bytes);
 
@@ -30,6 +32,7 @@ void run(std::int64_t n, const Kernel& kernel) {
     const auto blocks = static_cast<unsigned>((n + threads_of_a_block - 1) / threads_of_a_block);
     run_kernel<<<blocks, threads_of_a_block>>>(n, kernel);
     check(cudaGetLastError(), "launch");
+    settle();
 }
 
 /// One block sums `sum_width` items as a tree of fixed shape.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrate/watchdog.h"
 
+#include "integrate/census.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,31 +17,6 @@ struct Place {
     bool solid = true;
     std::size_t part = 0, slot = 0;
 };
-
-template <class Components>
-double speed(const Components& v, std::size_t i) {
-    return std::hypot(static_cast<double>(v[0][i]), static_cast<double>(v[1][i]), static_cast<double>(v[2][i]));
-}
-
-/// visit(place, speed, all its numbers are finite) for every particle.
-template <class R, class Visit>
-void each_particle(const World<R>& w, Visit&& visit) {
-    for (std::size_t p = 0; p < w.solids.size(); ++p) {
-        const SolidBody<R>& b = w.solids[p].body;
-        for (std::size_t i = 0; i < b.layout.flags.size(); ++i) {
-            if (!(b.layout.flags[i] & slot_own)) continue;
-            const double v = speed(b.v, i), u = speed(b.u, i);
-            visit(Place{true, p, i}, v, std::isfinite(v + u + static_cast<double>(b.energy[i]) + static_cast<double>(b.pressure[i])));
-        }
-    }
-    for (std::size_t p = 0; p < w.fluids.size(); ++p) {
-        const FluidBody& b = w.fluids[p].body;
-        for (std::size_t i = 0; i < b.mass.size(); ++i) {
-            const double v = speed(b.v, i), x = speed(b.x, i);
-            visit(Place{false, p, i}, v, std::isfinite(v + x + b.e[i] + b.rho[i] + b.pressure[i]));
-        }
-    }
-}
 
 template <class R>
 std::string row_of(const World<R>& w, const Place& at) {
@@ -73,21 +50,20 @@ template <class R>
 void watch(const World<R>& w, const Audit& a, const Leaks& leaks) {
     const StepOptions& o = w.options;
     Place lost, fastest;
-    bool has_lost = false;
     std::int64_t lost_count = 0;
     double most = -1;
-    each_particle(w, [&](const Place& at, double v, bool finite) {
-        if (!finite) {
-            if (!has_lost) lost = at;
-            has_lost = true;
-            ++lost_count;
-        } else if (v > most) {
-            most = v;
-            fastest = at;
+    const auto add = [&](const Census& c, bool solid, std::size_t part) {
+        if (c.lost > 0 && lost_count == 0) lost = {solid, part, static_cast<std::size_t>(c.first_lost)};
+        lost_count += c.lost;
+        if (c.most > most) {
+            most = c.most;
+            fastest = {solid, part, static_cast<std::size_t>(c.fastest)};
         }
-    });
+    };
+    for (std::size_t p = 0; p < w.solids.size(); ++p) add(census(w.solids[p].body), true, p);
+    for (std::size_t p = 0; p < w.fluids.size(); ++p) add(census(w.fluids[p].body), false, p);
     const std::string overlap = "parts that overlap at the start, a part thinner than three of its spacings";
-    if (has_lost)
+    if (lost_count > 0)
         throw stop(w, fmt::format("{} particles hold a value that is no number (NaN or infinite)", lost_count), "first", row_of(w, lost),
                    "a step too long for a contact or a law, a material outside of the range of its law, " + overlap,
                    "lower step.courant_fluid and step.courant_solid to two thirds; look at this part in the snapshot before; check its material (brisance materials)");
