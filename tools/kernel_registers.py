@@ -20,7 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "gpu.md"
 BEGIN, END = "<!-- kernels: tools/kernel_registers.py --docs -->", "<!-- end of kernels -->"
-HOT = ("StressKernel", "KickKernel", "DriftKernel", "SearchKernel", "DivergenceKernel", "RatesKernel", "NodeKernel", "ReactionKernel", "FollowKernel")
+HOT = ("StressKernel", "KickKernel", "DriftKernel", "SearchKernel", "DivergenceKernel", "RatesKernel", "NodeKernel", "WallKernel", "ReactionKernel", "FollowKernel")
 
 
 def sources():
@@ -58,15 +58,15 @@ def kernels(text):
 
 
 def short(name):
-    """The kernel's own name and parameters, without the loop that runs it; None for those of libraries and for lambdas."""
+    """The kernel's own name and parameters, without the loop that runs it; None for those of libraries, lambdas and what selection adds."""
     if "cub" in name and "brisance" not in name.split("cub", 1)[0] or "thrust::" in name:
         return None
     name = re.sub(r"\(anonymous namespace\)::|_GLOBAL__N__\w+::|_NV_ANON_NAMESPACE::|brisance::|exec::|cuda::", "", name)
     found = re.search(r"(?:run_kernel|sum_kernel)<(.*)>\(", name)
-    if not found or "__nv_" in found[1]:
+    if not found or "__nv_" in found[1] or "lambda" in found[1] or found[1].startswith(("Entry", "Flag", "Put")) or ", Entry<" in found[1]:
         return None
     inner = found[1]
-    if inner.startswith(("StressSums, ", "BodySums, ", "double, ", "Largest, ", "FluidSolver::Powers, ", "Touched, ", "Box, ", "Extent, ", "Total, ", "long, ")):
+    if inner.startswith(("StressSums, ", "BodySums, ", "double, ", "Largest, ", "FluidSolver::Powers, ", "Touched, ", "Box, ", "Extent, ", "Total, ", "Census, ", "long, ")):
         inner = inner.split(", ", 1)[1]
     inner = re.sub(r"TypedLaws<(\w+) ?>", r"\1", inner)
     return re.sub(r"LargestOf<(.*)>", r"\1", inner).replace(" >", ">").strip()

@@ -26,11 +26,11 @@ if ((${#files[@]})); then
 fi
 
 failed=0
-# What is suppressed was looked at: cppcheck 2.10 does not know std::string_view (run_directory), placement of raw memory (exec.h), arrays of
+# What is suppressed was looked at: cppcheck 2.10 does not know std::string_view (run_directory), placement of raw memory (memory.h), arrays of
 # members reached by index (vec.h), Array as a class (mirrored.h), explicit instantiation (recorder), loads by memcpy (pack.h).
-cppcheck --enable=warning,portability --std=c++20 --language=c++ --quiet --error-exitcode=1 -j 2 -I src --template='{file}:{line}: {severity} {id}: {message}' \
+cppcheck --enable=warning,portability --std=c++20 --language=c++ --quiet --error-exitcode=1 -j 2 -I src -U__CUDACC__ -UBRISANCE_CUDA --template='{file}:{line}: {severity} {id}: {message}' \
     --suppress=missingIncludeSystem --suppress=objectIndex:src/math/vec.h --suppress=CastIntegerToAddressAtReturn:src/particles/mirrored.h \
-    --suppress=invalidPointerCast:src/exec/exec.h --suppress=pointerSize:src/exec/exec.h --suppress=uninitMemberVar:src/app/recorder.cpp \
+    --suppress=invalidPointerCast:src/exec/memory.h --suppress=pointerSize:src/exec/memory.h --suppress=uninitMemberVar:src/app/recorder.cpp \
     --suppress=uninitvar:src/math/pack.h --suppress=constStatement:src/geometry/relax.cpp --suppress=danglingTemporaryLifetime:src/io/run_directory.cpp src || failed=1
 ((${#files[@]})) && printf '%s\n' "${files[@]}" | xargs -P 2 -n 4 clang-tidy -p build/release --quiet --extra-arg=-Wno-unknown-warning-option 2>/dev/null | grep . && failed=1
 exit $failed

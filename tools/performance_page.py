@@ -143,7 +143,7 @@ def page():
         "  eight numbers is gathered for each neighbour in both passes and turned in registers.",
         "* **The second thread** shares with the first whatever the machine lets two threads share: compare the arithmetic of one thread with that of both before blaming the loop:",
         f"  here {rows['arithmetic'][0]['rate'] / 1e9:.0f} and {top['arithmetic'] / 1e9:.0f} GFLOP/s.",
-        "* **Laws**: JH-2 is 9 % of the instructions of a loop of rock that fails (`build/portable/loops rock`). **Contact** looks only at pairs of parts that can have met since it looked last.", "",
+        "* **Laws**: JH-2 is 9 % of the instructions of a loop of rock that fails (`build/portable/loops rock`). **Contact** looks only at pairs of parts that can have met since it looked last, and sorts fluids by size.", "",
         "## Everything else", "", *rest(rows), "",
         "## Goals", "", *goals(rows), "",
         "## The preset full", "", *stretch(), "", "## Size", "", f"Rock in double, {read('rock_1e6.json')['rows'][-1]['threads']} threads.", "", *sizes(), ""]) + "\n"

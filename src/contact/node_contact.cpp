@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/chosen_points.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 
@@ -20,52 +21,88 @@ struct Touched {
     }
 };
 
+/// Particles of one size, within a factor of two (the last: and all that are larger). Gas that has expanded into the open is many times as wide as
+/// the rest: in one grid with it, everybody would look through cells of its size.
+struct Layer {
+    CellGridView grid;
+    const std::int32_t* points = nullptr;
+    double widest = 0;
+};
+constexpr int layers = 4;
+
 /// One of the two fluids.
 struct Side {
     FluidView body;
     const double *spacing, *modulus;
     double* f[3];
-    CellGridView grid;
     MirroredView points;
+    Layer layer[layers];
 };
-Side side(const FluidBody& b, FluidForces& f, CellGrid& grid, Mirrored& points, double largest) {
-    points.build(b, largest);
-    grid.build(points.place(0), points.place(1), points.place(2), points.size(), largest, largest, b.z_low, b.period);
-    return {view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, grid.view(), points.view()};
+
+/// Kept between steps for its memory; contact is not re-entrant.
+struct Sorted {
+    Mirrored points;
+    ChosenPoints chosen[layers];
+};
+
+Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest) {
+    sorted.points.build(b, largest);
+    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, sorted.points.view(), {}};
+    const MirroredView points = s.points;
+    const double* const spacing = s.spacing;
+    const std::int64_t n = sorted.points.size();
+    double above = 0, below = 1.3 * b.spacing;
+    for (int k = 0; k < layers && above < f.largest_spacing; ++k) {
+        if (k == layers - 1) below = 1e300;
+        std::int32_t* const list = sorted.chosen[k].list(n);
+        const std::int64_t count = exec::select(n, BRISANCE_KERNEL(std::int64_t i) {
+            const double kappa = spacing[points.particle(i)];
+            return kappa > above && kappa <= below;
+        }, BRISANCE_KERNEL(std::int64_t i, std::int64_t m) { list[m] = static_cast<std::int32_t>(i); });
+        if (count > 0) {
+            const double widest = exec::launch_max(count, 0.0, BRISANCE_KERNEL(std::int64_t m) { return spacing[points.particle(list[m])]; });
+            sorted.chosen[k].build(points.place[0], points.place[1], points.place[2], count, widest, largest, b.z_low, b.period);
+            s.layer[k] = {sorted.chosen[k].grid(), list, widest};
+        }
+        above = below;
+        below *= 2;
+    }
+    return s;
 }
 
 /// What a particle of one side feels of the other.
 struct NodeKernel {
     Side me, other;
-    double largest;
     ContactOptions o;
     BRISANCE_HD Touched operator()(std::int64_t i) const {
         const FluidView &p = me.body, &q = other.body;
         Touched local;
         double f[3] = {0, 0, 0};
-        other.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], largest, [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t k = first; k < last; ++k) {
-                const std::int64_t point = other.grid.index[k], j = other.points.particle(point);
-                const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
-                             dz = p.x[2][i] - other.points.place[2][point] - other.grid.shift[k];
-                const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.spacing[i] + other.spacing[j]);
-                if (r2 >= d * d || r2 < 1e-24) continue;
-                const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
-                const double m_star = series(p.mass[i], q.mass[j]);
-                const double stiffness = o.stiffness * std::max(4 * series(me.modulus[i], other.modulus[j]) * d, hardest(m_star, o));
-                // progressive: k (1 + 3 (overlap/d)^2)
-                const double spring = stiffness * overlap * (1 + 3 * deep * deep);
-                const auto velocity = [&](int axis) { return p.v_now[axis][i] - other.points.sign(point, axis) * q.v_now[axis][j]; };
-                const double vn = (velocity(0) * dx + velocity(1) * dy + velocity(2) * dz) / r;
-                const double force = std::max(spring - 2 * o.damping * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
-                f[0] += force * dx;
-                f[1] += force * dy;
-                f[2] += force * dz;
-                local.stored += 0.5 * stiffness * overlap * overlap * (1 + 1.5 * deep * deep);
-                local.overlap = std::max(local.overlap, overlap);
-                ++local.touching;
-            }
-        });
+        for (const Layer& layer : other.layer) {
+            layer.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], 0.5 * (me.spacing[i] + layer.widest), [&](std::int64_t first, std::int64_t last) {
+                for (std::int64_t k = first; k < last; ++k) {
+                    const std::int64_t point = layer.points[layer.grid.index[k]], j = other.points.particle(point);
+                    const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
+                                 dz = p.x[2][i] - other.points.place[2][point] - layer.grid.shift[k];
+                    const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.spacing[i] + other.spacing[j]);
+                    if (r2 >= d * d || r2 < 1e-24) continue;
+                    const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
+                    const double m_star = series(p.mass[i], q.mass[j]);
+                    const double stiffness = o.stiffness * std::max(4 * series(me.modulus[i], other.modulus[j]) * d, hardest(m_star, o));
+                    // progressive: k (1 + 3 (overlap/d)^2)
+                    const double spring = stiffness * overlap * (1 + 3 * deep * deep);
+                    const auto velocity = [&](int axis) { return p.v_now[axis][i] - other.points.sign(point, axis) * q.v_now[axis][j]; };
+                    const double vn = (velocity(0) * dx + velocity(1) * dy + velocity(2) * dz) / r;
+                    const double force = std::max(spring - 2 * o.damping * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
+                    f[0] += force * dx;
+                    f[1] += force * dy;
+                    f[2] += force * dz;
+                    local.stored += 0.5 * stiffness * overlap * overlap * (1 + 1.5 * deep * deep);
+                    local.overlap = std::max(local.overlap, overlap);
+                    ++local.touching;
+                }
+            });
+        }
         for (int a = 0; a < 3; ++a) me.f[a][i] += f[a];
         return local;
     }
@@ -74,13 +111,12 @@ struct NodeKernel {
 }  // namespace
 
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
-    static CellGrid grids[2];  // kept for their memory; contact is not re-entrant
-    static Mirrored points[2];
+    static Sorted sorted[2];
     const double largest = std::max(fa.largest_spacing, fb.largest_spacing);
-    const Side sides[2] = {side(a, fa, grids[0], points[0], largest), side(b, fb, grids[1], points[1], largest)};
+    const Side sides[2] = {side(a, fa, sorted[0], largest), side(b, fb, sorted[1], largest)};
     ContactReport report;
     for (int m = 0; m < 2; ++m) {
-        const Touched t = exec::launch_sum(sides[m].body.n, Touched{}, NodeKernel{sides[m], sides[1 - m], largest, o});
+        const Touched t = exec::launch_sum(sides[m].body.n, Touched{}, NodeKernel{sides[m], sides[1 - m], o});
         report.stored += 0.5 * t.stored;
         report.penetration = std::max(report.penetration, t.overlap);
         report.touching = t.touching;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/chosen_points.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 #include "math/kernel.h"
@@ -102,6 +103,9 @@ struct BoxKernel {
 /// Of the points of the wall that nodes can meet.
 struct Extent {
     double coarsest = 0, deepest = 0;
+    /// How far in front of or behind the wall a node can be that it touches, and with the tangential reach.
+    BRISANCE_HD double near(double radius) const { return std::max(deepest, radius) + coarsest; }
+    BRISANCE_HD double reach(double radius) const { return 2 * coarsest + std::max(deepest, radius + coarsest); }
     BRISANCE_HD Extent& operator+=(const Extent& o) {
         coarsest = std::max(coarsest, o.coarsest);
         deepest = std::max(deepest, o.deepest);
@@ -128,11 +132,11 @@ struct WallRows {
 };
 
 /// The force of the wall on a node.
-struct NodeKernel {
+struct WallKernel {
     Nodes nodes;
     CellGridView grid;
     SortedView<14> w;
-    double near, reach;
+    Extent extent;
     ContactOptions o;
     Touch* touch;
 
@@ -146,6 +150,7 @@ private:
     BRISANCE_HD void feel(std::int64_t i, Touch& t) const {
         const double x = nodes.x[0][i], y = nodes.x[1][i], z = nodes.x[2][i], reached = nodes.radius(i);
         const Vec3<V> at{broadcast<V>(x), broadcast<V>(y), broadcast<V>(z)};
+        const double near = extent.near(reached), reach = extent.reach(reached);
         // most nodes are far from the wall: is any point of it near, with the node not well in front?
         bool close = false;
         grid.ranges(x, y, z, near, [&](std::int64_t first, std::int64_t last) {
@@ -206,10 +211,11 @@ private:
 };
 
 struct Touched {
-    double stored = 0, overlap = 0;
+    double stored = 0, overlap = 0, radius = 0;
     BRISANCE_HD Touched& operator+=(const Touched& other) {
         stored += other.stored;
         overlap = std::max(overlap, other.overlap);
+        radius = std::max(radius, other.radius);
         return *this;
     }
 };
@@ -271,34 +277,9 @@ struct ReactionKernel {
     }
 };
 
-/// Points of a list, as arrays that a grid can be made of.
-class Chosen {
-public:
-    std::int32_t* list(std::int64_t n) {
-        make_room(list_, static_cast<std::size_t>(n));
-        return list_.data();
-    }
-    void build(CellGrid& grid, const double* x, const double* y, const double* z, std::int64_t n, double reach, double z_low, double period) {
-        for (auto* a : {&x_, &y_, &z_}) make_room(*a, static_cast<std::size_t>(n));
-        double *const tx = x_.data(), *const ty = y_.data(), *const tz = z_.data();
-        const std::int32_t* const list = list_.data();
-        exec::launch(n, BRISANCE_KERNEL(std::int64_t k) {
-            tx[k] = x[list[k]];
-            ty[k] = y[list[k]];
-            tz[k] = z[list[k]];
-        }, 1024);
-        grid.build(tx, ty, tz, n, 0.5 * reach, reach, z_low, period);
-    }
-
-private:
-    Array<std::int32_t> list_;
-    Array<double> x_, y_, z_;
-};
-
 ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOptions& o, double z_low, double period) {
     // kept between steps for their memory; contact is not re-entrant
-    static Chosen active_points, touching_nodes;
-    static CellGrid walls, points;
+    static ChosenPoints active_points, touching_nodes;
     static Sorted<14> wall_columns;
     static Sorted<10> node_columns;
     static Array<Touch> touches;
@@ -317,16 +298,15 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
         const std::int32_t j = active[k];
         return Extent{std::max(wall.spacing[j], wall.dz[j]), wall.depth[j]};
     });
-    // tangential reach, and how far in front of or behind the wall a node can be
-    const double reach = 2 * extent.coarsest + std::max(extent.deepest, radius + extent.coarsest);
-    const double near = std::max(extent.deepest, radius) + extent.coarsest;
-    active_points.build(walls, wall.x, wall.y, wall.z, count, reach, z_low, period);
-    const SortedView<14> w = wall_columns.room(walls.entries());
-    exec::launch(walls.entries() + width, WallRows{wall, active, walls.view(), w}, 1024);
+    // cells for nodes of usual size; few gas particles have expanded far, and they look into more cells
+    active_points.build(wall.x, wall.y, wall.z, count, 0.5 * extent.reach(0), extent.reach(radius), z_low, period);
+    const CellGridView walls = active_points.grid();
+    const SortedView<14> w = wall_columns.room(walls.entries);
+    exec::launch(walls.entries + width, WallRows{wall, active, walls, w}, 1024);
 
     make_room(touches, static_cast<std::size_t>(nodes.n));
     Touch* const touch = touches.data();
-    exec::launch(nodes.n, NodeKernel{nodes, walls.view(), w, near, reach, o, touch});
+    exec::launch(nodes.n, WallKernel{nodes, walls, w, extent, o, touch});
 
     std::int32_t* const touching = touching_nodes.list(nodes.n);
     ContactReport report;
@@ -335,15 +315,17 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     if (report.touching == 0) return report;
     const Touched touched = exec::launch_sum(report.touching, Touched{}, BRISANCE_KERNEL(std::int64_t k) {
         const Touch& t = touch[touching[k]];
-        return Touched{t.stored, t.overlap};
+        return Touched{t.stored, t.overlap, nodes.radius(touching[k])};
     });
     report.stored = touched.stored;
     report.penetration = touched.overlap;
 
-    touching_nodes.build(points, nodes.x[0], nodes.x[1], nodes.x[2], report.touching, reach, z_low, period);
-    const SortedView<10> p = node_columns.room(points.entries());
-    exec::launch(points.entries() + width, NodeRows{nodes, touching, touch, points.view(), p}, 1024);
-    exec::launch(count, ReactionKernel{wall, active, points.view(), p, reach, nodes.normal[0] != nullptr});
+    const double reach = extent.reach(touched.radius);
+    touching_nodes.build(nodes.x[0], nodes.x[1], nodes.x[2], report.touching, 0.5 * reach, reach, z_low, period);
+    const CellGridView points = touching_nodes.grid();
+    const SortedView<10> p = node_columns.room(points.entries);
+    exec::launch(points.entries + width, NodeRows{nodes, touching, touch, points, p}, 1024);
+    exec::launch(count, ReactionKernel{wall, active, points, p, reach, nodes.normal[0] != nullptr});
     return report;
 }
 

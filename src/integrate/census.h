@@ -3,8 +3,7 @@
 #pragma once
 
 #include "base/hd.h"
-#include "particles/fluid_body.h"
-#include "particles/solid_body.h"
+#include "integrate/world.h"
 
 namespace brisance {
 

@@ -114,6 +114,34 @@ TEST(Contact, AMirrorStandsForTheOtherHalf) {
     EXPECT_GT(std::abs(across), 1e-6);  // some of it came through the mirror
 }
 
+TEST(Contact, GasThatHasExpandedTouchesAllThatItReaches) {
+    FluidPart a = disturbed_water({0.2, 6, 6, 6, -1.2, -0.6, 0, false}, 0.05, 1), b = disturbed_water({0.2, 6, 6, 6, -0.4, -0.55, 0, false}, 0.05, 2);
+    Random random(5);
+    for (FluidPart* p : {&a, &b}) {
+        for (double& rho : p->body.rho_now) rho *= std::pow(10.0, random.uniform(-3.5, 0.1));  // up to fifteen times as wide
+        p->forces.begin(p->body);
+    }
+    const ContactOptions springs{1, 0, 0, 0};
+    const ContactReport r = node_contact(a.body, b.body, springs, a.forces, b.forces);
+    std::int64_t touching = 0;
+    double force = 0, worst = 0;
+    for (std::size_t i = 0; i < a.body.mass.size(); ++i) {
+        Vec3<double> f;
+        for (std::size_t j = 0; j < b.body.mass.size(); ++j) {
+            const Vec3<double> d{a.body.x[0][i] - b.body.x[0][j], a.body.x[1][i] - b.body.x[1][j], a.body.x[2][i] - b.body.x[2][j]};
+            const double wide = 0.5 * (a.forces.spacing[i] + b.forces.spacing[j]), overlap = wide - norm(d), deep = overlap / wide;
+            if (!(overlap > 0)) continue;
+            ++touching;
+            const double k = 4 * a.forces.modulus[i] * b.forces.modulus[j] / (a.forces.modulus[i] + b.forces.modulus[j]) * wide;
+            f = f + (k * overlap * (1 + 3 * deep * deep) / norm(d)) * d;
+        }
+        force = std::max(force, norm(f));
+        worst = std::max(worst, norm(f - Vec3<double>{a.forces.fx[i], a.forces.fy[i], a.forces.fz[i]}));
+    }
+    EXPECT_EQ(r.touching, touching);
+    EXPECT_LT(worst, 1e-12 * force);
+}
+
 TEST(Contact, ReactionEqualsActionAtAWall) {
     for (const bool periodic : {false, true})
         for (const int nz : {1, 2, 8}) {

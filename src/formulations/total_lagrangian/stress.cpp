@@ -143,7 +143,8 @@ struct Moduli {
         : density(m.density), bulk(m.bulk_modulus()), longitudinal(m.longitudinal_modulus()), shear(m.strength->shear_modulus()), sound(m.sound_speed()) {}
 };
 
-template <class V, class Laws>
+/// `softens`: tensile failure takes a fracture energy. Few cases want it, and its lines would cost the others registers.
+template <class V, class Laws, bool softens>
 struct StressKernel {
     using R = ScalarOf<V>;
     SolidView<R> b;
@@ -199,14 +200,13 @@ private:
         for (int k = 0; k < n_state; ++k) p.state[k] = load<V>(b.state[k] + i);
         const V damage_old = n_state > 0 ? p.state[0] : zero;
         const V expansion = trace(step.d);
-        const bool softens = rule.fracture_energy > 0;
-        V opening{}, lift{};
-        if (softens) {
+        [[maybe_unused]] V opening{}, lift{};
+        if constexpr (softens) {
             opening = load<V>(b.opening + i);
             lift = R(moduli.bulk) * opening;
         }
         const V bulk = advance(laws, p, safe_j, energy, softens ? &lift : nullptr);
-        if (softens) crack(p, column, opening);
+        if constexpr (softens) crack(p, column, opening);
         failure(p, tile, column, damage_old);
 
         // bulk viscosity: q = rho l (C_q l e^2 - C_l c e) in compression, e = tr D < 0
@@ -227,7 +227,7 @@ private:
         const Mat3<V> pk = (sigma * cof) * g.k_inverse;  // P K^-1, P = J sigma F^-T
         const V k_on = alive ? one : zero;
         V a_keep = a0 * p.integrity * k_on;
-        if (softens) {
+        if constexpr (softens) {
             // What F does not see beside an opening crack is its opening, and no zero-energy mode: the control must not pull it shut. In
             // tension, beyond a fifth of the strain of failure, it is softened as (strain/misfit)^2, for good, so that its force falls as
             // the crack opens. Sum w xi xi being the unit tensor, misfit/3 is the square of a strain.
@@ -257,7 +257,7 @@ private:
         keep(b.s[4], p.s.xz);
         keep(b.s[5], p.s.yz);
         keep(b.pressure, p.pressure);
-        if (softens) keep(b.opening, opening);
+        if constexpr (softens) keep(b.opening, opening);
         keep(b.energy, energy);
         store(b.power + i, alive ? ddot(pk, dr) / dt : zero);
         store(b.stiffness + i, a_keep);
@@ -421,8 +421,9 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
 template <class R>
 StressReport stress(SolidBody<R>& body, const ColumnPairs<R>& pairs, double time, double dt, double kick) {
     const StressSums sums = with_laws<StressSums>(body.material, [&](const auto& laws) {
-        using Kernel = StressKernel<Pack<R>, std::remove_cvref_t<decltype(laws)>>;
-        return exec::launch_sum(packs(body), StressSums{}, Kernel(body, pairs, laws, time, dt, kick));
+        using Laws = std::remove_cvref_t<decltype(laws)>;
+        if (body.options.failure.fracture_energy > 0) return exec::launch_sum(packs(body), StressSums{}, StressKernel<Pack<R>, Laws, true>(body, pairs, laws, time, dt, kick));
+        return exec::launch_sum(packs(body), StressSums{}, StressKernel<Pack<R>, Laws, false>(body, pairs, laws, time, dt, kick));
     });
     StressReport out;
     out.rate = sums.rate;
