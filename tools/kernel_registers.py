@@ -80,6 +80,8 @@ def table(arch):
     rows = {short(name): row[1:] for name, row in zip(names, raw) if short(name)}
     lines = [f"| kernel, {arch} | registers | stack, bytes | spilled, bytes |", "|---|---|---|---|"]
     lines += [f"| `{name}` | {r} | {stack} | {spill} |" for name, (r, stack, spill) in sorted(rows.items())]
+    others = [row[1:] for name, row in zip(names, raw) if not short(name) and "brisance" in name]
+    lines.append("| lambdas and selections, at most | " + " | ".join(str(max(row[k] for row in others)) for k in range(3)) + " |")
     bad = [name for name, (_, _, spill) in rows.items() if spill and name.startswith(HOT) and "double" not in name]
     return lines, bad
 

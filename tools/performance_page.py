@@ -112,7 +112,7 @@ def full():
     end = float((re.search(r"stopped by a signal at t = ([0-9.]+) us", log) or re.search(r"until ([0-9.]+) us", log))[1])
     measured, foretold = run["wall_seconds"], check["seconds"] * end / 150
     seconds = {part: run["particles"][part] * run["steps"] / rate for part, rate in run["rates"].items() if part != "all"}
-    return {"particles": sum(run["particles"].values()), "setup": float(re.search(r"set up in ([0-9.]+) s", log)[1]), "end": end, "steps": run["steps"], "measured": measured,
+    return {"particles": sum(run["particles"].values()), "setup": float(re.search(r"set up in ([0-9.]+) s", log)[1]), "end": end, "steps": run["steps"], "measured": measured, "commit": run["commit"],
             "foretold": foretold, "whole": check["seconds"] * measured / foretold, "whole_foretold": check["seconds"], "threads": run["machine"]["threads"],
             "shares": ", ".join(f"{part} {100 * s / measured:.0f} %" for part, s in seconds.items())}
 
@@ -120,7 +120,7 @@ def full():
 def stretch():
     f = full()
     return [f"`cases/blast/air_copper.toml --preset full` from the lighting to {f['end']:.2f} µs: {f['particles']:,} particles set up in {f['setup']:.0f} s, {f['steps']} long steps in {f['measured'] / 60:.1f} min on "
-            f"{f['threads']} threads (`brisance check` foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
+            f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check` foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
             f"In the same proportion the 150 µs, which `check` puts at {f['whole_foretold'] / 3600:.1f} h, take {f['whole'] / 3600:.1f}. The fluids decide: a million particles, of which the thin sheath holds the step, and the cord burns for 30 µs."]
 
 
@@ -130,7 +130,7 @@ def page():
     top = {name: rows[name][-1]["rate"] for name in ("bandwidth", "arithmetic", "arithmetic_single")}
     return "\n".join([
         "<!-- SPDX-License-Identifier: Apache-2.0 -->", "# Performance", "",
-        f"{bench['cpu']}, {rows['rock'][-1]['threads']} threads, {bench['build']}; median of {bench['repeat']} runs, each a process of its own. A virtual machine that others share: the columns *lowest … highest*",
+        f"{bench['cpu']}, {rows['rock'][-1]['threads']} threads, {bench['build']}; median of {bench['repeat']} runs, each a process of its own (commit {bench['commit'].split('-')[0]}). A virtual machine that others share: the columns *lowest … highest*",
         "tell how far to trust a number. Made by `tools/performance_page.py` from `brisance bench --json`, which measures the same on your machine.", "",
         f"The ceilings, measured too: {top['bandwidth'] / 1e9:.1f} GB/s, {top['arithmetic'] / 1e9:.0f} GFLOP/s in double, {top['arithmetic_single'] / 1e9:.0f} in single.", "",
         "## Loops", "", *loops(rows), "",

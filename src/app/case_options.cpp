@@ -13,9 +13,10 @@ namespace brisance {
 namespace {
 
 void choose_device(const std::string& wanted) {
+    if (wanted == "cpu") return exec::use_device(false);
     const exec::DeviceInfo d = exec::device_info();
     if (wanted == "cuda" && !(d.built && d.found)) throw ResourceError("--device cuda: " + d.name);
-    exec::use_device(wanted != "cpu" && d.found);
+    exec::use_device(d.found);
 }
 
 }  // namespace
@@ -34,8 +35,9 @@ void require_memory(const Case& c, const Estimate& e) {
         throw ResourceError(fmt::format("{} does not fit: it needs about {:.3g} GiB for {:.4g} particles, {:.3g} GiB are free. Coarser: --preset or "
                                         "--set rock.spacing=...",
                                         c.file, e.bytes / gibibyte, e.particles, free / gibibyte));
+    if (!exec::on_device()) return;
     const exec::DeviceInfo d = exec::device_info();
-    if (exec::on_device() && e.bytes > d.memory_free)
+    if (e.bytes > d.memory_free)
         throw ResourceError(fmt::format("{} does not fit on {}: it needs about {:.3g} GiB for {:.4g} particles, {:.3g} GiB are free there. Coarser: --preset or --set "
                                         "rock.spacing=..., half of it: --set run.precision=single, on the processor: --device cpu",
                                         c.file, d.name, e.bytes / gibibyte, e.particles, d.memory_free / gibibyte));

@@ -31,8 +31,10 @@ int check_command(const CaseOptions& o) {
             fmt::print("{:<12} {:<18} {:<18} {:>9.3g} {:>9.3g} {:>9.3g} {:>13.0f} {:>12.5g} {:>10.0f} {:>9.2f}\n", p.name, p.material, p.formulation, p.spacing,
                        p.spacing_far, p.spacing_z, p.particles, 1e-3 * p.mass, p.bytes / 1048576, 1e3 * p.dt);
         fmt::print("\n{:.4g} particles, {:.3g} GiB (free: {:.3g} GiB)\n", e.particles, e.bytes / gibibyte, memory / gibibyte);
-        const exec::DeviceInfo d = exec::device_info();
-        if (exec::on_device()) fmt::print("on {}, {:.3g} of {:.3g} GiB free\n", d.name, d.memory_free / gibibyte, d.memory / gibibyte);
+        if (exec::on_device()) {
+            const exec::DeviceInfo d = exec::device_info();
+            fmt::print("on {}, {:.3g} of {:.3g} GiB free\n", d.name, d.memory_free / gibibyte, d.memory / gibibyte);
+        }
         fmt::print("first step {:.2f} ns, {:.0f} short steps to {:g} us; about {} on {} threads\n", 1e3 * e.dt, e.steps, c.until,
                    seconds < 3600 ? fmt::format("{:.0f} min", seconds / 60 + 1) : fmt::format("{:.1f} h", seconds / 3600), exec::threads());
         for (const PartData& p : c.parts)

@@ -25,8 +25,10 @@ namespace {
 
 int main_with_errors(int argc, char** argv) {
     CLI::App app{"brisance: how rock breaks under a blast"};
-    const exec::DeviceInfo device = exec::device_info();
-    app.set_version_flag("--version", fmt::format("brisance {} ({}), {}{}", version(), commit(), build_features(), !device.built ? "" : (device.found ? ", device: " : ", no device: ") + device.name));
+    app.set_version_flag("--version", [] {
+        const exec::DeviceInfo device = exec::device_info();
+        return fmt::format("brisance {} ({}), {}{}", version(), commit(), build_features(), !device.built ? "" : (device.found ? ", device: " : ", no device: ") + device.name);
+    });
     app.require_subcommand(1);
     app.footer("Exit codes: 0 ok, 2 bad input, 3 stopped by the physics, 4 memory, disk or permission, 5 interrupted.\n"
                "Start with: brisance run cases/blast/air_copper.toml --preset quick");

@@ -24,6 +24,7 @@ struct Nodes {
     const double* normal[3];        ///< points of a wall have normals, and touch only walls that face them
     double* f[3];
     std::int64_t n;
+    double largest_radius;
 
     BRISANCE_HD double radius(std::int64_t i) const { return kappa ? 0.5 * kappa[i] : 0.0; }
     /// Area and length of the spring. A fluid's is so stiff that a gas does not gain volume: overlap = kappa/8 P/(rho c^2).
@@ -42,6 +43,9 @@ template <int n>
 struct SortedView {
     double* columns[n];
     BRISANCE_HD V operator()(int c, std::int64_t k) const { return load<V>(columns[c] + k); }
+    BRISANCE_HD void put(std::int64_t k, const double (&row)[n]) const {
+        for (int c = 0; c < n; ++c) columns[c][k] = row[c];
+    }
 };
 template <int n>
 class Sorted {
@@ -58,12 +62,6 @@ public:
 private:
     std::array<Array<double>, n> columns_;
 };
-
-/// Lanes of the pack at q that lie before `last`.
-BRISANCE_HD inline auto before(std::int64_t q, std::int64_t last) {
-    alignas(64) constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    return static_cast<double>(q) + load<V>(lane_number) < static_cast<double>(last);
-}
 
 /// A point of the wall, or a pack of them: place, normal, shape of its kernel, and how far behind it a node is still pushed back.
 struct WallPoint {
@@ -120,14 +118,10 @@ struct WallRows {
     CellGridView grid;
     SortedView<14> rows;
     BRISANCE_HD void operator()(std::int64_t k) const {
-        double row[14] = {};
-        if (k < grid.entries) {
-            const std::int32_t j = active[grid.index[k]];
-            const double now[14] = {wall.x[j],    wall.y[j],       wall.z[j] + grid.shift[k], wall.n[0][j], wall.n[1][j], wall.n[2][j], wall.spacing[j],
-                                    wall.dz[j],   wall.depth[j],   wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j]};
-            for (int c = 0; c < 14; ++c) row[c] = now[c];
-        }
-        for (int c = 0; c < 14; ++c) rows.columns[c][k] = row[c];
+        if (k >= grid.entries) return rows.put(k, {0});
+        const std::int32_t j = active[grid.index[k]];
+        rows.put(k, {wall.x[j],  wall.y[j],     wall.z[j] + grid.shift[k], wall.n[0][j], wall.n[1][j], wall.n[2][j], wall.spacing[j],
+                     wall.dz[j], wall.depth[j], wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j]});
     }
 };
 
@@ -157,7 +151,7 @@ private:
             for (std::int64_t q = first; q < last && !close; q += width) {
                 const Vec3<V> d{at.x - w(0, q), at.y - w(1, q), at.z - w(2, q)};
                 const V ahead = d.x * w(3, q) + d.y * w(4, q) + d.z * w(5, q);
-                close = any_lane((dot(d, d) < near * near) & (ahead < 1.5 * reached + 0.25 * w(6, q)) & before(q, last));
+                close = any_lane((dot(d, d) < near * near) & (ahead < 1.5 * reached + 0.25 * w(6, q)) & lanes_before<V>(q, last));
             }
         });
         if (!close) return;
@@ -168,7 +162,7 @@ private:
                 const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
                 const V facing = nodes.normal[0] ? nodes.normal[0][i] * s.normal.x + nodes.normal[1][i] * s.normal.y + nodes.normal[2][i] * s.normal.z : broadcast<V>(-1.0);
                 V gap;
-                const V all = weight(s, at, broadcast<V>(reached), facing, gap), omega = before(q, last) ? all : V{};
+                const V all = weight(s, at, broadcast<V>(reached), facing, gap), omega = lanes_before<V>(q, last) ? all : V{};
                 weights += omega;
                 gaps += omega * gap;
                 normals = normals + omega * s.normal;
@@ -228,24 +222,12 @@ struct NodeRows {
     CellGridView grid;
     SortedView<10> rows;
     BRISANCE_HD void operator()(std::int64_t k) const {
-        double row[10] = {};
-        if (k < grid.entries) {
-            const std::int32_t i = touching[grid.index[k]];
-            const Touch& t = touch[i];
-            const bool faces = nodes.normal[0] != nullptr;
-            const double now[10] = {nodes.x[0][i],
-                                    nodes.x[1][i],
-                                    nodes.x[2][i] + grid.shift[k],
-                                    nodes.radius(i),
-                                    faces ? nodes.normal[0][i] : 0.0,
-                                    faces ? nodes.normal[1][i] : 0.0,
-                                    faces ? nodes.normal[2][i] : 0.0,
-                                    t.fx / t.weights,
-                                    t.fy / t.weights,
-                                    t.fz / t.weights};
-            for (int c = 0; c < 10; ++c) row[c] = now[c];
-        }
-        for (int c = 0; c < 10; ++c) rows.columns[c][k] = row[c];
+        if (k >= grid.entries) return rows.put(k, {0});
+        const std::int32_t i = touching[grid.index[k]];
+        const Touch& t = touch[i];
+        const bool faces = nodes.normal[0] != nullptr;
+        rows.put(k, {nodes.x[0][i], nodes.x[1][i], nodes.x[2][i] + grid.shift[k], nodes.radius(i), faces ? nodes.normal[0][i] : 0.0, faces ? nodes.normal[1][i] : 0.0,
+                     faces ? nodes.normal[2][i] : 0.0, t.fx / t.weights, t.fy / t.weights, t.fz / t.weights});
     }
 };
 
@@ -267,7 +249,7 @@ struct ReactionKernel {
             for (std::int64_t q = first; q < last; q += width) {
                 const V facing = faces ? p(4, q) * s.normal.x + p(5, q) * s.normal.y + p(6, q) * s.normal.z : broadcast<V>(-1.0);
                 V gap;
-                const V all = weight(s, {p(0, q), p(1, q), p(2, q)}, p(3, q), facing, gap), omega = before(q, last) ? all : V{};
+                const V all = weight(s, {p(0, q), p(1, q), p(2, q)}, p(3, q), facing, gap), omega = lanes_before<V>(q, last) ? all : V{};
                 f = f + omega * Vec3<V>{p(7, q), p(8, q), p(9, q)};
             }
         });
@@ -285,7 +267,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     static Array<Touch> touches;
 
     const SurfaceView wall = view(surface);
-    const double radius = exec::launch_max(nodes.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return nodes.radius(i); });
+    const double radius = nodes.largest_radius;
     // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
     const Box box = exec::launch_sum(nodes.n, Box{}, BoxKernel{nodes});
     std::int32_t* const active = active_points.list(wall.size);
@@ -334,13 +316,13 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
     const FluidView b = view(a);
     const Nodes n{{b.x[0], b.x[1], b.x[2]}, {b.v_now[0], b.v_now[1], b.v_now[2]}, b.mass, fa.modulus.data(), fa.spacing.data(), nullptr, nullptr, {},
-                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, b.n};
+                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, b.n, 0.5 * fa.largest_spacing};
     return against_wall(n, s, o, z_low, period);
 }
 
 ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
     const SurfaceView s = view(nodes);
-    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, s.size};
+    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, s.size, 0};
     return against_wall(n, wall, o, z_low, period);
 }
 

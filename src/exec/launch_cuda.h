@@ -72,9 +72,8 @@ T sum(std::int64_t n, T zero, const Kernel& kernel) {
     check(cudaGetLastError(), "sum");
     T total = zero;
     check(cudaMemcpy(&total, partial, sizeof(T), cudaMemcpyDeviceToHost), "sum");
-    T result = zero;
-    result += total;
-    return result;
+    zero += total;  // counts where no block has a gap
+    return zero;
 }
 
 template <class Keep>

@@ -108,6 +108,12 @@ struct ConstantAllocator {
 /// An array that kernels may touch. Made, resized and read by the processor outside of a step, or under HostAccess.
 template <class T> using Array = std::vector<T, Allocator<T>>;
 
+/// Bare pointers of several arrays.
+template <class Pointers, class Arrays>
+void take_pointers(Pointers& to, Arrays& arrays) {
+    for (std::size_t k = 0; k < arrays.size(); ++k) to[k] = arrays[k].data();
+}
+
 /// Room for n entries at least; what is in them is left open.
 template <class T>
 void make_room(Array<T>& a, std::size_t n) {

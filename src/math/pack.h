@@ -127,6 +127,13 @@ template <class V> BRISANCE_INLINE ScalarOf<V> hsum(V x) {
     return lane(detail::folded<lanes_of<V> / 2>(x, [](V a, V b) { return a + b; }), 0);
 }
 
+/// A comparison of packs: the lanes of the one at `first` that lie before `last`.
+template <class V> BRISANCE_INLINE auto lanes_before(std::int64_t first, std::int64_t last) {
+    using R = ScalarOf<V>;
+    alignas(64) constexpr R number[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return static_cast<R>(first) + load<V>(number) < static_cast<R>(last);
+}
+
 /// Whether a comparison of two packs holds in any lane.
 template <class Mask> BRISANCE_INLINE bool any_lane(Mask on) {
     if constexpr (sizeof(Mask) <= sizeof(std::int64_t)) {

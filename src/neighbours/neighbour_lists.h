@@ -45,7 +45,6 @@ struct SearchKernel {
     BRISANCE_HD double operator()(std::int64_t i) const {
         using V = Pack<double>;
         constexpr int width = NeighbourListsView::width;
-        alignas(64) constexpr double lane_number[8] = {0, 1, 2, 3, 4, 5, 6, 7};
         v.count[i] = 0;
         if (!wanted(i)) return 0;
         const double x = s.x[i], y = s.y[i], z = s.z[i], h = s.h[i];
@@ -54,8 +53,8 @@ struct SearchKernel {
         grid.ranges(x, y, z, h + s.h_max < 2 * s.h_max ? h + s.h_max : 2 * s.h_max, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const V dx = x - load<V>(s.x + q), dy = y - load<V>(s.y + q), dz = z - load<V>(s.z + q), reach = h + load<V>(s.h + q);
-                const V r2 = dx * dx + dy * dy + dz * dz, number = static_cast<double>(q) + load<V>(lane_number);
-                end += list_lanes<V>(v.at(i, end < full ? end : full), static_cast<std::int32_t>(q), (r2 < reach * reach) & (r2 > 1e-24) & (number < static_cast<double>(last)));
+                const V r2 = dx * dx + dy * dy + dz * dz;
+                end += list_lanes<V>(v.at(i, end < full ? end : full), static_cast<std::int32_t>(q), (r2 < reach * reach) & (r2 > 1e-24) & lanes_before<V>(q, last));
             }
         });
         if (end > full) return static_cast<double>(end);

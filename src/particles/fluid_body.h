@@ -63,14 +63,11 @@ struct FluidView {
 /// Kernels that only read take it too, so that a body that is constant has one.
 inline FluidView view(const FluidBody& constant) {
     auto& b = const_cast<FluidBody&>(constant);
-    const auto all = [](std::array<Array<double>, 3>& a, double* (&to)[3]) {
-        for (std::size_t k = 0; k < 3; ++k) to[k] = a[k].data();
-    };
     FluidView v{};
-    all(b.x, v.x);
-    all(b.v, v.v);
-    all(b.v_now, v.v_now);
-    all(b.acceleration, v.acceleration);
+    take_pointers(v.x, b.x);
+    take_pointers(v.v, b.v);
+    take_pointers(v.v_now, b.v_now);
+    take_pointers(v.acceleration, b.acceleration);
     v.mass = b.mass.data();
     v.rho = b.rho.data();
     v.rho_now = b.rho_now.data();

@@ -94,18 +94,15 @@ template <class R>
 SolidView<R> view(const SolidBody<R>& constant) {
     auto& b = const_cast<SolidBody<R>&>(constant);
     SolidView<R> s{};
-    const auto all = [](auto& to, auto& from) {
-        for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[k].data();
-    };
-    all(s.u, b.u);
-    all(s.v, b.v);
-    all(s.v_now, b.v_now);
-    all(s.acceleration, b.acceleration);
-    all(s.viscous_force, b.viscous_force);
-    all(s.R_sum, b.R_sum);
-    all(s.T, b.T);
-    all(s.s, b.s);
-    all(s.state, b.state);
+    take_pointers(s.u, b.u);
+    take_pointers(s.v, b.v);
+    take_pointers(s.v_now, b.v_now);
+    take_pointers(s.acceleration, b.acceleration);
+    take_pointers(s.viscous_force, b.viscous_force);
+    take_pointers(s.R_sum, b.R_sum);
+    take_pointers(s.T, b.T);
+    take_pointers(s.s, b.s);
+    take_pointers(s.state, b.state);
     s.pressure = b.pressure.data();
     s.energy = b.energy.data();
     s.power = b.power.data();

@@ -29,25 +29,8 @@ void solid_loop(const std::string& material, double smoothing) {
     });
 }
 
-FluidPart shaken_water(const FluidBox& box, std::uint64_t seed) {
-    FluidOptions o;
-    FluidPart f = fluid(library("water"), o, box);
-    Random random(seed);
-    for (std::size_t i = 0; i < f.body.mass.size(); ++i)
-        for (std::size_t a = 0; a < 3; ++a) {
-            f.body.x[a][i] += 0.1 * box.spacing * random.uniform(-1, 1);
-            f.body.v[a][i] = random.uniform(-0.05, 0.05);
-        }
-    f.body.v_now = f.body.v;
-    f.body.rho_now = f.body.rho;
-    f.body.e_now = f.body.e;
-    f.solver.state(f.body, 0);
-    f.forces.begin(f.body);
-    return f;
-}
-
 void fluid_loop() {
-    FluidPart f = shaken_water({0.2, 14, 14, 14, 0, 0, 0, false}, 1);
+    FluidPart f = disturbed_water({0.2, 14, 14, 14, 0, 0, 0, false}, 0.02, 1, 0.05);
     counted([&] {
         for (int k = 0; k < 8; ++k) {
             f.solver.state(f.body, 0.01 * k);
@@ -63,7 +46,7 @@ void fluid_loop() {
 void contact_loop() {
     SolidPart<double> wall = block(library("copper_ofhc"), {}, Lattice{4, 24, 12, 0.25, 0.25, false, false, false, 0, -3, 0});
     respond_to(wall);
-    FluidPart a = shaken_water({0.125, 8, 40, 20, -0.95, -2.5, 0.2, false}, 2), b = shaken_water({0.125, 8, 40, 20, -1.9, -2.5, 0.2, false}, 3);
+    FluidPart a = disturbed_water({0.125, 8, 40, 20, -0.95, -2.5, 0.2, false}, 0.0125, 2, 0.05), b = disturbed_water({0.125, 8, 40, 20, -1.9, -2.5, 0.2, false}, 0.0125, 3, 0.05);
     const ContactOptions o{1, 0.05, 0, 1e-3};
     ContactReport last;
     counted([&] {

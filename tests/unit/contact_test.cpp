@@ -25,24 +25,6 @@ void disturb(SolidPart<double>& s, double size, std::uint64_t seed) {
     follow(s.surface, s.body, s.pairs, 0);
 }
 
-FluidPart disturbed_water(const FluidBox& box, double size, std::uint64_t seed) {
-    FluidPart f = fluid(library("water"), {}, box);
-    Random random(seed);
-    for (std::size_t i = 0; i < f.body.mass.size(); ++i)
-        for (std::size_t a = 0; a < 3; ++a) {
-            f.body.x[a][i] += random.uniform(-size, size);
-            f.body.v[a][i] = random.uniform(-0.2, 0.2);
-        }
-    if (f.body.period > 0)
-        for (double& z : f.body.x[2]) z -= f.body.period * std::floor((z - f.body.z_low) / f.body.period);
-    f.body.v_now = f.body.v;
-    f.body.rho_now = f.body.rho;
-    f.body.e_now = f.body.e;
-    f.solver.state(f.body, 0);
-    f.forces.begin(f.body);
-    return f;
-}
-
 struct Total {
     double x = 0, y = 0, z = 0, size = 0;
     void add(const Array<double>& fx, const Array<double>& fy, const Array<double>& fz) {

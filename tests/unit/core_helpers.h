@@ -258,6 +258,25 @@ inline FluidPart fluid(const Material& material, const FluidOptions& options, co
     return f;
 }
 
+/// Water whose particles have been moved by up to `size` mm and given up to `speed` km/s each way, at random.
+inline FluidPart disturbed_water(const FluidBox& box, double size, std::uint64_t seed, double speed = 0.2) {
+    FluidPart f = fluid(library("water"), {}, box);
+    Random random(seed);
+    for (std::size_t i = 0; i < f.body.mass.size(); ++i)
+        for (std::size_t a = 0; a < 3; ++a) {
+            f.body.x[a][i] += random.uniform(-size, size);
+            f.body.v[a][i] = random.uniform(-speed, speed);
+        }
+    if (f.body.period > 0)
+        for (double& z : f.body.x[2]) z -= f.body.period * std::floor((z - f.body.z_low) / f.body.period);
+    f.body.v_now = f.body.v;
+    f.body.rho_now = f.body.rho;
+    f.body.e_now = f.body.e;
+    f.solver.state(f.body, 0);
+    f.forces.begin(f.body);
+    return f;
+}
+
 /// A fluid that repeats in y as well: real particles in one period and copies of them beside it, which take over the state of their
 /// originals after every step. Nothing but the passes of the solver is used.
 class Tube {
