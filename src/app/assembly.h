@@ -16,11 +16,13 @@ struct Estimate {
         std::string name, material, formulation;
         double spacing = 0, spacing_far = 0, spacing_z = 0, mass = 0;   ///< mm, mg
         double particles = 0, bytes = 0, dt = 0;                        ///< dt: stable step at rest, us
+        bool burns = false;
     };
     std::vector<Part> parts;
     double particles = 0, bytes = 0;
     double dt = 0;            ///< the first step, us: a charge that burns is the fastest
-    double steps = 0;         ///< short steps after the burn
+    double burn = 0;          ///< us, when the last of the charge is lit
+    double steps = 0;         ///< short steps
     double core_seconds = 0;  ///< solids take longer steps than fluids (integrate/step.cpp)
 };
 

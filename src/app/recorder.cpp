@@ -60,27 +60,35 @@ Leaks find_leaks(const World<R>& w) {
             low_y = std::min(low_y, f.body.x[1][i]);
             high_y = std::max(high_y, f.body.x[1][i]);
         }
-    // The solids near the fluids, as points with volumes and supports.
-    Array<double> x, y, z, volume, hx, hz;
-    double reach = 0;
-    for (const auto& s : w.solids)
-        for (const Column& c : s.body.layout.columns) {
+    // The solids near the fluids, as points with volumes and supports. Each has a grid of its own: in one for all, a fine liner would be
+    // searched as far as the coarse rock behind it reaches.
+    struct Near {
+        Array<double> x, y, z, volume, hx;
+        double hz = 0, reach = 0;
+        CellGrid grid;
+    };
+    std::vector<Near> solids(w.solids.size());
+    for (std::size_t n = 0; n < solids.size(); ++n) {
+        const SolidBody<R>& body = w.solids[n].body;
+        Near& near = solids[n];
+        near.hz = 1.2 * body.layout.dz;
+        near.reach = 2 * near.hz;
+        for (const Column& c : body.layout.columns) {
             const double margin = 3 * c.spacing;
             if (c.x < low_x - margin || c.x > high_x + margin || c.y < low_y - margin || c.y > high_y + margin) continue;
+            near.reach = std::max(near.reach, 2.4 * c.spacing);
             for (int k = 0; k < c.layers; ++k) {
                 const auto i = static_cast<std::size_t>(c.start + k);
-                if (!(s.body.layout.flags[i] & slot_own)) continue;
-                x.push_back(c.x + static_cast<double>(s.body.u[0][i]));
-                y.push_back(c.y + static_cast<double>(s.body.u[1][i]));
-                z.push_back(c.z0 + k * s.body.layout.dz + static_cast<double>(s.body.u[2][i]));
-                volume.push_back(s.body.volume(c));
-                hx.push_back(1.2 * c.spacing);
-                hz.push_back(1.2 * s.body.layout.dz);
-                reach = std::max({reach, 2 * hx.back(), 2 * hz.back()});
+                if (!(body.layout.flags[i] & slot_own)) continue;
+                near.x.push_back(c.x + static_cast<double>(body.u[0][i]));
+                near.y.push_back(c.y + static_cast<double>(body.u[1][i]));
+                near.z.push_back(c.z0 + k * body.layout.dz + static_cast<double>(body.u[2][i]));
+                near.volume.push_back(body.volume(c));
+                near.hx.push_back(1.2 * c.spacing);
             }
         }
-    CellGrid grid;
-    grid.build(x.data(), y.data(), z.data(), static_cast<std::int64_t>(x.size()), 0.5 * reach, reach, w.z_low, w.period);
+        near.grid.build(near.x.data(), near.y.data(), near.z.data(), static_cast<std::int64_t>(near.x.size()), 0.5 * near.reach, near.reach, w.z_low, w.period);
+    }
     Leaks leaks;
     for (std::size_t part = 0; part < w.fluids.size(); ++part) {
         const FluidPart& f = w.fluids[part];
@@ -89,14 +97,15 @@ Leaks find_leaks(const World<R>& w) {
             const auto i = static_cast<std::size_t>(n);
             double colour = 0;
             const double px = f.body.x[0][i], py = f.body.x[1][i], pz = f.body.x[2][i];
-            grid.ranges(px, py, pz, reach, [&](std::int64_t first, std::int64_t last) {
-                for (std::int64_t k = first; k < last; ++k) {
-                    const auto j = static_cast<std::size_t>(grid.index(k));
-                    const double dx = px - x[j], dy = py - y[j], dz = pz - z[j] - grid.shift(k);
-                    const double q2 = (dx * dx + dy * dy) / (hx[j] * hx[j]) + dz * dz / (hz[j] * hz[j]);
-                    if (q2 < 4) colour += volume[j] * kernel::sigma_3d / (hx[j] * hx[j] * hz[j]) * kernel::shape(std::sqrt(q2));
-                }
-            });
+            for (const Near& s : solids)
+                s.grid.ranges(px, py, pz, s.reach, [&](std::int64_t first, std::int64_t last) {
+                    for (std::int64_t k = first; k < last; ++k) {
+                        const auto j = static_cast<std::size_t>(s.grid.index(k));
+                        const double dx = px - s.x[j], dy = py - s.y[j], dz = pz - s.z[j] - s.grid.shift(k), hx = s.hx[j];
+                        const double q2 = (dx * dx + dy * dy) / (hx * hx) + dz * dz / (s.hz * s.hz);
+                        if (q2 < 4) colour += s.volume[j] * kernel::sigma_3d / (hx * hx * s.hz) * kernel::shape(std::sqrt(q2));
+                    }
+                });
             leaked[i] = colour > 0.6;
         });
         const std::int64_t count = std::count(leaked.begin(), leaked.end(), 1);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "exec/launch.h"
-#include "neighbours/cell_grid.h"
+#include "neighbours/ring_map.h"
 
 namespace brisance {
 
@@ -23,18 +23,23 @@ public:
         make_room(list_, static_cast<std::size_t>(n));
         return list_.data();
     }
-    /// Sorts the first n of the list; index k of the grid is entry k of the list.
-    void build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period) {
+    /// Sorts the first n of the list; index k of the grid is entry k of the list. `reach` as CellGrid::build has it, `looks`:
+    /// how many will ask what is near them. Where they are many, a map of `depth` rings tells most of them that nothing is.
+    void build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period, std::int64_t looks, int depth = 3) {
         for (auto* a : {&x_, &y_, &z_}) make_room(*a, static_cast<std::size_t>(n));
         exec::launch(n, Gather{{x, y, z}, list_.data(), {x_.data(), y_.data(), z_.data()}}, 1024);
         grid_.build(x_.data(), y_.data(), z_.data(), n, cell, reach, z_low, period);
+        if (looks > 2 * grid_.view().cells()) rings_.build(grid_.view(), depth);
+        else rings_.clear();
     }
     const CellGridView& grid() const { return grid_.view(); }
+    const RingMapView& rings() const { return rings_.view(); }
 
 private:
     Array<std::int32_t> list_;
     Array<double> x_, y_, z_;
     CellGrid grid_;
+    RingMap rings_;
 };
 
 }  // namespace brisance

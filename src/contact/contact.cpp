@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/contact.h"
 
-#include "exec/launch.h"
+#include "contact/chosen_points.h"
+#include "neighbours/box.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brisance {
 
@@ -27,21 +29,16 @@ void FluidForces::begin(const FluidBody& body) {
 
 double clearance(const double* ax, const double* ay, const double* az, std::int64_t na, const double* bx, const double* by, const double* bz,
                  std::int64_t nb, double range, double horizon, double z_low, double period) {
+    constexpr int depth = 5;
     const double reach = range + horizon;
-    static CellGrid kept;  // for its memory; contact is not re-entrant
-    kept.build(bx, by, bz, nb, 0.5 * reach, reach, z_low, period);
-    const CellGridView grid = kept.view();
-    const double nearest = -exec::launch_max(na, -reach, BRISANCE_KERNEL(std::int64_t n) {
-        double least = reach * reach;
-        grid.ranges(ax[n], ay[n], az[n], reach, [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t k = first; k < last; ++k) {
-                const std::int64_t j = grid.index[k];
-                const double dx = ax[n] - bx[j], dy = ay[n] - by[j], dz = az[n] - bz[j] - grid.shift[k];
-                least = std::min(least, dx * dx + dy * dy + dz * dz);
-            }
-        });
-        return -std::sqrt(least);
-    });
+    static ChosenPoints beside;  // kept for its memory; contact is not re-entrant
+    const Box box = box_of(ax, ay, az, na);
+    std::int32_t* const list = beside.list(nb);
+    const std::int64_t count = exec::select(nb, BRISANCE_KERNEL(std::int64_t i) { return box.beside(bx[i], by[i], reach); },
+                                            BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { list[k] = static_cast<std::int32_t>(i); });
+    beside.build(bx, by, bz, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth);
+    const RingMapView rings = beside.rings();
+    const double nearest = -exec::launch_max(na, -reach, BRISANCE_KERNEL(std::int64_t n) { return -rings.bound(ax[n], ay[n], az[n]); });
     return std::max(0.0, nearest - range);
 }
 

@@ -25,6 +25,7 @@ struct Touched {
 /// the rest: in one grid with it, everybody would look through cells of its size.
 struct Layer {
     CellGridView grid;
+    RingMapView rings;
     const std::int32_t* points = nullptr;
     double widest = 0;
 };
@@ -45,7 +46,7 @@ struct Sorted {
     ChosenPoints chosen[layers];
 };
 
-Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest) {
+Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, std::int64_t looks) {
     sorted.points.build(b, largest);
     Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, sorted.points.view(), {}};
     const MirroredView points = s.points;
@@ -61,8 +62,8 @@ Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest) {
         }, BRISANCE_KERNEL(std::int64_t i, std::int64_t m) { list[m] = static_cast<std::int32_t>(i); });
         if (count > 0) {
             const double widest = exec::launch_max(count, 0.0, BRISANCE_KERNEL(std::int64_t m) { return spacing[points.particle(list[m])]; });
-            sorted.chosen[k].build(points.place[0], points.place[1], points.place[2], count, widest, largest, b.z_low, b.period);
-            s.layer[k] = {sorted.chosen[k].grid(), list, widest};
+            sorted.chosen[k].build(points.place[0], points.place[1], points.place[2], count, widest, largest, b.z_low, b.period, looks);
+            s.layer[k] = {sorted.chosen[k].grid(), sorted.chosen[k].rings(), list, widest};
         }
         above = below;
         below *= 2;
@@ -79,7 +80,9 @@ struct NodeKernel {
         Touched local;
         double f[3] = {0, 0, 0};
         for (const Layer& layer : other.layer) {
-            layer.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], 0.5 * (me.spacing[i] + layer.widest), [&](std::int64_t first, std::int64_t last) {
+            const double reach = 0.5 * (me.spacing[i] + layer.widest);
+            if (layer.grid.entries == 0 || layer.rings.bound(p.x[0][i], p.x[1][i], p.x[2][i]) >= reach) continue;
+            layer.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], reach, [&](std::int64_t first, std::int64_t last) {
                 for (std::int64_t k = first; k < last; ++k) {
                     const std::int64_t point = layer.points[layer.grid.index[k]], j = other.points.particle(point);
                     const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
@@ -113,7 +116,7 @@ struct NodeKernel {
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
     static Sorted sorted[2];
     const double largest = std::max(fa.largest_spacing, fb.largest_spacing);
-    const Side sides[2] = {side(a, fa, sorted[0], largest), side(b, fb, sorted[1], largest)};
+    const Side sides[2] = {side(a, fa, sorted[0], largest, b.size()), side(b, fb, sorted[1], largest, a.size())};
     ContactReport report;
     for (int m = 0; m < 2; ++m) {
         const Touched t = exec::launch_sum(sides[m].body.n, Touched{}, NodeKernel{sides[m], sides[1 - m], o});

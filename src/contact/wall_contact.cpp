@@ -5,6 +5,7 @@
 #include "math/kernel.h"
 #include "math/pack.h"
 #include "math/vec.h"
+#include "neighbours/box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,25 +80,6 @@ BRISANCE_HD inline V weight(const WallPoint& s, const Vec3<V>& node, V radius, V
     return on ? s.area * kernel::shape(vsqrt(q2)) : V{};
 }
 
-/// The box of some points in the section.
-struct Box {
-    double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
-    BRISANCE_HD Box& operator+=(const Box& o) {
-        for (int a = 0; a < 2; ++a) {
-            low[a] = std::min(low[a], o.low[a]);
-            high[a] = std::max(high[a], o.high[a]);
-        }
-        return *this;
-    }
-};
-struct BoxKernel {
-    Nodes nodes;
-    BRISANCE_HD Box operator()(std::int64_t i) const {
-        const double x = nodes.x[0][i], y = nodes.x[1][i];
-        return {{x, y}, {x, y}};
-    }
-};
-
 /// Of the points of the wall that nodes can meet.
 struct Extent {
     double coarsest = 0, deepest = 0;
@@ -129,6 +111,7 @@ struct WallRows {
 struct WallKernel {
     Nodes nodes;
     CellGridView grid;
+    RingMapView rings;
     SortedView<14> w;
     Extent extent;
     ContactOptions o;
@@ -146,6 +129,7 @@ private:
         const Vec3<V> at{broadcast<V>(x), broadcast<V>(y), broadcast<V>(z)};
         const double near = extent.near(reached), reach = extent.reach(reached);
         // most nodes are far from the wall: is any point of it near, with the node not well in front?
+        if (rings.bound(x, y, z) >= near) return;
         bool close = false;
         grid.ranges(x, y, z, near, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last && !close; q += width) {
@@ -236,11 +220,13 @@ struct ReactionKernel {
     SurfaceView wall;
     const std::int32_t* active;
     CellGridView grid;
+    RingMapView rings;
     SortedView<10> p;
     double reach;
     bool faces;
     BRISANCE_HD void operator()(std::int64_t m) const {
         const std::int32_t j = active[m];
+        if (rings.bound(wall.x[j], wall.y[j], wall.z[j]) >= reach) return;
         const WallPoint s{{broadcast<V>(wall.x[j]), broadcast<V>(wall.y[j]), broadcast<V>(wall.z[j])},
                           {broadcast<V>(wall.n[0][j]), broadcast<V>(wall.n[1][j]), broadcast<V>(wall.n[2][j])},
                           broadcast<V>(wall.spacing[j]), broadcast<V>(wall.dz[j]), broadcast<V>(wall.depth[j]), broadcast<V>(wall.area[j])};
@@ -269,11 +255,10 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     const SurfaceView wall = view(surface);
     const double radius = nodes.largest_radius;
     // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
-    const Box box = exec::launch_sum(nodes.n, Box{}, BoxKernel{nodes});
+    const Box box = box_of(nodes.x[0], nodes.x[1], nodes.x[2], nodes.n);
     std::int32_t* const active = active_points.list(wall.size);
     const std::int64_t count = exec::select(wall.size, BRISANCE_KERNEL(std::int64_t j) {
-        const double margin = radius + wall.depth[j] + 2 * wall.spacing[j];
-        return wall.x[j] > box.low[0] - margin && wall.x[j] < box.high[0] + margin && wall.y[j] > box.low[1] - margin && wall.y[j] < box.high[1] + margin;
+        return box.beside(wall.x[j], wall.y[j], radius + wall.depth[j] + 2 * wall.spacing[j]);
     }, BRISANCE_KERNEL(std::int64_t j, std::int64_t k) { active[k] = static_cast<std::int32_t>(j); });
     if (count == 0) return {};
     const Extent extent = exec::launch_sum(count, Extent{}, BRISANCE_KERNEL(std::int64_t k) {
@@ -281,14 +266,14 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
         return Extent{std::max(wall.spacing[j], wall.dz[j]), wall.depth[j]};
     });
     // cells for nodes of usual size; few gas particles have expanded far, and they look into more cells
-    active_points.build(wall.x, wall.y, wall.z, count, 0.5 * extent.reach(0), extent.reach(radius), z_low, period);
+    active_points.build(wall.x, wall.y, wall.z, count, 0.5 * extent.reach(0), extent.reach(radius), z_low, period, nodes.n);
     const CellGridView walls = active_points.grid();
     const SortedView<14> w = wall_columns.room(walls.entries);
     exec::launch(walls.entries + width, WallRows{wall, active, walls, w}, 1024);
 
     make_room(touches, static_cast<std::size_t>(nodes.n));
     Touch* const touch = touches.data();
-    exec::launch(nodes.n, WallKernel{nodes, walls, w, extent, o, touch});
+    exec::launch(nodes.n, WallKernel{nodes, walls, active_points.rings(), w, extent, o, touch});
 
     std::int32_t* const touching = touching_nodes.list(nodes.n);
     ContactReport report;
@@ -303,11 +288,11 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     report.penetration = touched.overlap;
 
     const double reach = extent.reach(touched.radius);
-    touching_nodes.build(nodes.x[0], nodes.x[1], nodes.x[2], report.touching, 0.5 * reach, reach, z_low, period);
+    touching_nodes.build(nodes.x[0], nodes.x[1], nodes.x[2], report.touching, 0.5 * reach, reach, z_low, period, count);
     const CellGridView points = touching_nodes.grid();
     const SortedView<10> p = node_columns.room(points.entries);
     exec::launch(points.entries + width, NodeRows{nodes, touching, touch, points, p}, 1024);
-    exec::launch(count, ReactionKernel{wall, active, points, p, reach, nodes.normal[0] != nullptr});
+    exec::launch(count, ReactionKernel{wall, active, points, touching_nodes.rings(), p, reach, nodes.normal[0] != nullptr});
     return report;
 }
 

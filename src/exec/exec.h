@@ -40,14 +40,14 @@ inline void set_threads(int n) {
 enum class Schedule { dynamic, fixed, guided };
 inline Schedule schedule = Schedule::dynamic;
 
-/// f(i) for i in [0, n), in any order, in runs of `grain` items. Items must not depend on each other.
+/// f(i) for i in [0, n), in any order, in runs of `grain` items. Items must not depend on each other. A single run wakes no other thread.
 template <class F>
 void for_each(std::int64_t n, F&& f, int grain = 64) {
 #ifdef _OPENMP
     constexpr omp_sched_t kinds[] = {omp_sched_dynamic, omp_sched_static, omp_sched_guided};
     omp_set_schedule(kinds[static_cast<int>(schedule)], grain);
 #endif
-#pragma omp parallel for schedule(runtime)
+#pragma omp parallel for schedule(runtime) if (n > grain)
     for (std::int64_t i = 0; i < n; ++i) f(i);
 }
 

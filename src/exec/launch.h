@@ -12,7 +12,9 @@
 #include "exec/launch_cuda.h"
 #endif
 
+#include <memory>
 #include <utility>
+#include <vector>
 
 /// A small kernel: what it captures, it copies.
 #define BRISANCE_KERNEL [=] BRISANCE_HD
@@ -21,6 +23,8 @@ namespace brisance::exec {
 
 /// Items per partial sum.
 inline constexpr std::int64_t chunk = 256;
+/// Fewer items than this are selected and sorted by one thread.
+inline constexpr std::int64_t worth_sharing = 8192;
 
 #if !defined(BRISANCE_CUDA) || defined(__CUDACC__)
 
@@ -115,10 +119,30 @@ std::int64_t select(std::int64_t n, const Keep& keep, const Put& put) {
     if (on_device()) return cuda::select(n, keep, put);
 #endif
     const detail::Opened opened_keep(keep), opened_put(put);
-    std::int64_t k = 0;
-    for (std::int64_t i = 0; i < n; ++i)
-        if (keep(i)) put(i, k++);
-    return k;
+    if (n < worth_sharing) {
+        std::int64_t k = 0;
+        for (std::int64_t i = 0; i < n; ++i)
+            if (keep(i)) put(i, k++);
+        return k;
+    }
+    constexpr std::int64_t run = 4096;
+    const std::int64_t runs = (n + run - 1) / run;
+    // what each run keeps, as offsets into it
+    const std::unique_ptr<std::uint16_t[]> kept(new std::uint16_t[static_cast<std::size_t>(n)]);
+    std::vector<std::int64_t> before(static_cast<std::size_t>(runs) + 1);
+    for_each(runs, [&](std::int64_t r) {
+        const std::int64_t first = r * run, last = first + run < n ? first + run : n;
+        std::uint16_t* next = kept.get() + first;
+        for (std::int64_t i = first; i < last; ++i)
+            if (keep(i)) *next++ = static_cast<std::uint16_t>(i - first);
+        before[static_cast<std::size_t>(r) + 1] = next - (kept.get() + first);
+    }, 1);
+    for (std::size_t r = 1; r < before.size(); ++r) before[r] += before[r - 1];
+    for_each(runs, [&](std::int64_t r) {
+        const std::int64_t first = before[static_cast<std::size_t>(r)], count = before[static_cast<std::size_t>(r) + 1] - first;
+        for (std::int64_t m = 0; m < count; ++m) put(r * run + kept[static_cast<std::size_t>(r * run + m)], first + m);
+    }, 1);
+    return before.back();
 }
 
 /// Sorts the numbers 0 ... n-1 by bucket[i], equal ones in their order: `order` gets them, and begin[b] where bucket b starts (one more than there
@@ -128,13 +152,37 @@ inline void bucket_sort(const std::int32_t* bucket, std::int64_t n, std::int64_t
     if (on_device()) return cuda::bucket_sort(bucket, n, buckets, order, begin);
 #endif
     const detail::Opened opened;
-    std::memset(begin, 0, static_cast<std::size_t>(buckets + 1) * sizeof *begin);
-    for (std::int64_t i = 0; i < n; ++i) ++begin[bucket[i] + 1];
-    for (std::int64_t b = 0; b < buckets; ++b) begin[b + 1] += begin[b];
-    // each start moves on while its bucket fills, and ends where the next one began
-    for (std::int64_t i = 0; i < n; ++i) order[begin[bucket[i]]++] = static_cast<std::int32_t>(i);
-    for (std::int64_t b = buckets; b > 0; --b) begin[b] = begin[b - 1];
-    begin[0] = 0;
+    // Each thread looks through all and takes care of its own stretch of the buckets.
+    const std::int64_t parts = n < worth_sharing || buckets < threads() ? 1 : threads();
+    std::vector<std::int64_t> before(static_cast<std::size_t>(parts) + 1);
+    const auto bucket_of_part = [&](std::int64_t p) { return buckets * p / parts; };
+    for_each(parts, [&](std::int64_t p) {
+        const std::int64_t first = bucket_of_part(p), last = bucket_of_part(p + 1);
+        std::memset(begin + first, 0, static_cast<std::size_t>(last - first) * sizeof *begin);
+        std::int64_t count = 0;
+        for (std::int64_t i = 0; i < n; ++i)
+            if (bucket[i] >= first && bucket[i] < last) {
+                ++begin[bucket[i]];
+                ++count;
+            }
+        before[static_cast<std::size_t>(p) + 1] = count;
+    }, 1);
+    for (std::size_t p = 1; p < before.size(); ++p) before[p] += before[p - 1];
+    for_each(parts, [&](std::int64_t p) {
+        const std::int64_t first = bucket_of_part(p), last = bucket_of_part(p + 1), start = before[static_cast<std::size_t>(p)];
+        std::int64_t next = start;
+        for (std::int64_t b = first; b < last; ++b) {
+            const std::int64_t count = begin[b];
+            begin[b] = next;
+            next += count;
+        }
+        // each start moves on while its bucket fills, and ends where the next one began
+        for (std::int64_t i = 0; i < n; ++i)
+            if (bucket[i] >= first && bucket[i] < last) order[begin[bucket[i]]++] = static_cast<std::int32_t>(i);
+        for (std::int64_t b = last - 1; b > first; --b) begin[b] = begin[b - 1];
+        begin[first] = start;
+    }, 1);
+    begin[buckets] = n;
 }
 
 #else  // in a build for CUDA only what goes through nvcc can launch (device_sources in CMakeLists.txt)

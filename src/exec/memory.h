@@ -5,6 +5,8 @@
 // pretend device keeps all arrays in an arena without access rights, opened for kernels and for HostAccess only.
 #pragma once
 
+#include "base/memory.h"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -82,7 +84,9 @@ struct Allocator {
         if (exec::on_device()) return static_cast<T*>(exec::device_allocate(n * sizeof(T)));
         static std::atomic<std::size_t> next{0};
         const std::size_t ahead = line * (1 + next++ % lines_of_a_page);
-        char* const block = static_cast<char*>(::operator new(n * sizeof(T) + line * lines_of_a_page, std::align_val_t(line)));
+        const std::size_t bytes = n * sizeof(T) + line * lines_of_a_page;
+        char* const block = static_cast<char*>(::operator new(bytes, std::align_val_t(line)));
+        prefer_large_pages(block, bytes);
         std::memcpy(block + ahead - sizeof block, &block, sizeof block);  // where it began, for deallocate
         return reinterpret_cast<T*>(block + ahead);
     }

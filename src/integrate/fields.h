@@ -34,7 +34,10 @@ void each_field(World<R>& w, V&& visit) {
     visit("outside.x", w.force_from_outside.x);
     visit("outside.y", w.force_from_outside.y);
     visit("outside.z", w.force_from_outside.z);
-    for (std::size_t k = 0; k < w.contacts.size(); ++k) visit(fmt::format("clear.{}", k), w.contacts[k].clear);
+    for (std::size_t k = 0; k < w.contacts.size(); ++k) {
+        visit(fmt::format("clear.{}", k), w.contacts[k].clear);
+        visit(fmt::format("patience.{}", k), w.contacts[k].patience);
+    }
 
     const auto columns = [&](const std::string& name, auto& arrays) {
         for (std::size_t k = 0; k < arrays.size(); ++k) visit(fmt::format("{}.{}", name, k), arrays[k]);

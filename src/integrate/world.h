@@ -41,6 +41,7 @@ struct ContactPair {
     enum Kind { fluid_fluid, fluid_solid, solid_solid } kind;
     std::size_t a, b;
     double clear = 0;  ///< mm that the two can still close before they must be looked at again
+    std::int64_t patience = 0;  ///< passes until that is asked anew, after an answer of 0
 };
 
 struct StepOptions {

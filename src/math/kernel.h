@@ -17,10 +17,11 @@ template <class V> BRISANCE_HD inline V shape(V q) {
     return (q < R(1)) ? R(1) - q * q * (R(1.5) - R(0.75) * q) : R(0.25) * two * two * two;
 }
 /// -w'(q)/q, finite at q = 0: the weight of a bond, g = weight * xi / h^(d+2).
-template <class V> BRISANCE_HD inline V bond(V q) {
+template <class V> BRISANCE_HD inline V bond(V q, V inverse_q) {
     using R = ScalarOf<V>;
     const V two = vmax(R(2) - q, V{});
-    return (q < R(1)) ? R(3) - R(2.25) * q : R(0.75) * two * two / vmax(q, V{} + R(1e-6));
+    return (q < R(1)) ? R(3) - R(2.25) * q : R(0.75) * two * two * inverse_q;
 }
+template <class V> BRISANCE_HD inline V bond(V q) { return bond(q, ScalarOf<V>(1) / vmax(q, V{} + ScalarOf<V>(1e-6))); }
 
 }  // namespace brisance::kernel

@@ -127,6 +127,39 @@ template <class V> BRISANCE_INLINE ScalarOf<V> hsum(V x) {
     return lane(detail::folded<lanes_of<V> / 2>(x, [](V a, V b) { return a + b; }), 0);
 }
 
+namespace detail {
+#ifndef BRISANCE_CUDA
+/// Lanes of a and b are blocks of 2 step; folds each to `step`, those of a first.
+template <int step, class V, int... l> BRISANCE_INLINE V fold_two(V a, V b, std::integer_sequence<int, l...>) {
+    constexpr int n = sizeof...(l);
+    return __builtin_shufflevector(a, b, (l / (n / 2) * n + l % (n / 2) / step * 2 * step + l % step)...) +
+           __builtin_shufflevector(a, b, (l / (n / 2) * n + l % (n / 2) / step * 2 * step + l % step + step)...);
+}
+/// n/step packs folded to one.
+template <int step, class V> BRISANCE_INLINE V fold_all(const V* x) {
+    constexpr int n = lanes_of<V>;
+    if constexpr (2 * step == n) return fold_two<step>(x[0], x[1], std::make_integer_sequence<int, n>{});
+    else return fold_two<step>(fold_all<2 * step>(x), fold_all<2 * step>(x + n / (2 * step)), std::make_integer_sequence<int, n>{});
+}
+#endif
+}  // namespace detail
+/// sum[k] = hsum(x[k]), in the same order, for much less.
+template <class V, int m> BRISANCE_INLINE void hsums(const V (&x)[m], ScalarOf<V> (&sum)[m]) {
+    constexpr int n = lanes_of<V>, whole = (m + n - 1) / n * n;
+    if constexpr (n == 1) {
+        for (int k = 0; k < m; ++k) sum[k] = x[k];
+    }
+#ifndef BRISANCE_CUDA
+    else {
+        V padded[whole]{};
+        ScalarOf<V> folded[whole];
+        for (int k = 0; k < m; ++k) padded[k] = x[k];
+        for (int k = 0; k < whole; k += n) store(folded + k, detail::fold_all<1>(padded + k));
+        for (int k = 0; k < m; ++k) sum[k] = folded[k];
+    }
+#endif
+}
+
 /// A comparison of packs: the lanes of the one at `first` that lie before `last`.
 template <class V> BRISANCE_INLINE auto lanes_before(std::int64_t first, std::int64_t last) {
     using R = ScalarOf<V>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "neighbours/cell_grid.h"
 
-#include "exec/launch.h"
+#include "neighbours/box.h"
 
 #include <algorithm>
 
@@ -18,24 +18,11 @@ struct Raw {
     BRISANCE_HD double shifted(std::int64_t k) const { return shift ? shift[k] : 0.0; }
 };
 
-struct Box {
-    double min[3] = {1e300, 1e300, 1e300}, max[3] = {-1e300, -1e300, -1e300};
-    BRISANCE_HD Box& operator+=(const Box& o) {
-        for (int a = 0; a < 3; ++a) {
-            min[a] = o.min[a] < min[a] ? o.min[a] : min[a];
-            max[a] = o.max[a] > max[a] ? o.max[a] : max[a];
-        }
-        return *this;
-    }
-};
 struct BoxKernel {
     Raw raw;
     BRISANCE_HD Box operator()(std::int64_t k) const {
         const std::int32_t i = raw.point(k);
-        const double p[3] = {raw.x[i], raw.y[i], raw.z[i] + raw.shifted(k)};
-        Box b;
-        for (int a = 0; a < 3; ++a) b.min[a] = b.max[a] = p[a];
-        return b;
+        return box_of(raw.x[i], raw.y[i], raw.z[i] + raw.shifted(k));
     }
 };
 
@@ -46,7 +33,7 @@ struct CellKernel {
     BRISANCE_HD void operator()(std::int64_t k) const {
         const std::int32_t i = raw.point(k);
         const int cx = grid.place(raw.x[i], 0), cy = grid.place(raw.y[i], 1), cz = grid.place(raw.z[i] + raw.shifted(k), 2);
-        cell_of[k] = static_cast<std::int32_t>((static_cast<std::int64_t>(cz) * grid.n[1] + cy) * grid.n[0] + cx);
+        cell_of[k] = static_cast<std::int32_t>(grid.row(cy, cz) + cx);
     }
 };
 
@@ -99,15 +86,15 @@ void CellGrid::build(const double* x, const double* y, const double* z, std::int
             g.n[a] = entries == 0 ? 1 : 1 + static_cast<int>(std::min((box.max[a] - box.min[a]) / g.cell, 1e6));
             count *= g.n[a];
         }
-        if (count <= 64.0 * static_cast<double>(entries) + 4096) break;
+        if (count <= 16.0 * static_cast<double>(entries) + 4096) break;
         g.cell *= 1.5;
     }
     const auto size = static_cast<std::size_t>(entries);
-    make_room(begin_, static_cast<std::size_t>(count) + 1);
+    make_room(begin_, static_cast<std::size_t>(g.cells()) + 1);
     for (auto* a : {&cell_of_, &order_, &index_}) make_room(*a, size);
     make_room(shift_, size);
     exec::launch(entries, CellKernel{raw, g, cell_of_.data()}, 1024);
-    exec::bucket_sort(cell_of_.data(), entries, static_cast<std::int64_t>(count), order_.data(), begin_.data());
+    exec::bucket_sort(cell_of_.data(), entries, g.cells(), order_.data(), begin_.data());
     const std::int32_t* const order = order_.data();
     std::int32_t* const index = index_.data();
     double* const shift = shift_.data();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A uniform grid of cells over a set of points, made anew each step by a stable counting sort: points of a cell stand together, in the
-// order of their numbers. Cells along x are contiguous, so a row of cells is one range of points.
+// order of their numbers. Cells along x are contiguous, so a row of cells is one range of points. Rows stand in strips of some along y, each
+// strip from one end of z to the other: what a walk through the points needs of their neighbours then stays in the cache.
 #pragma once
 
 #include "base/hd.h"
@@ -19,6 +20,11 @@ struct CellGridView {
     const std::int32_t* index = nullptr;
     const double* shift = nullptr;
 
+    static constexpr int strip = 8;  ///< rows
+    /// Places for cells, the strip that is not full included.
+    std::int64_t cells() const { return static_cast<std::int64_t>((n[1] + strip - 1) / strip) * strip * n[0] * n[2]; }
+    /// The first cell of a row.
+    BRISANCE_HD std::int64_t row(int j, int k) const { return ((static_cast<std::int64_t>(j / strip) * n[2] + k) * strip + j % strip) * n[0]; }
     BRISANCE_HD int place(double p, int axis) const {
         const double q = (p - min[axis]) / cell;
         if (!(q > 0)) return 0;
@@ -32,8 +38,7 @@ struct CellGridView {
         const int i0 = place(x - reach, 0), i1 = place(x + reach, 0), j0 = place(y - reach, 1), j1 = place(y + reach, 1), k0 = place(z - reach, 2), k1 = place(z + reach, 2);
         for (int k = k0; k <= k1; ++k)
             for (int j = j0; j <= j1; ++j) {
-                const std::int64_t row = (static_cast<std::int64_t>(k) * n[1] + j) * n[0];
-                const std::int64_t first = begin[row + i0], last = begin[row + i1 + 1];
+                const std::int64_t cells = row(j, k), first = begin[cells + i0], last = begin[cells + i1 + 1];
                 if (first < last) f(first, last);
             }
     }

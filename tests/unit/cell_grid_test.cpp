@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every range query against a search through all points and all their images.
 #include "core_helpers.h"
-#include "neighbours/cell_grid.h"
+#include "neighbours/ring_map.h"
 
 #include <map>
 #include <set>
@@ -46,11 +46,9 @@ void compare(const Points& p, double cell, double reach, double z_low, double pe
                 const double dx = p.x[k] - at[0], dy = p.y[k] - at[1], dz = p.z[k] + m * period - at[2];
                 if (dx * dx + dy * dy + dz * dz < want_reach * want_reach) want.insert({i, m});
             }
-        std::int64_t visited = 0, last_cell_end = -1;
+        std::int64_t visited = 0;
         grid.ranges(at[0], at[1], at[2], want_reach, [&](std::int64_t first, std::int64_t last) {
             EXPECT_LT(first, last);
-            EXPECT_GE(first, last_cell_end);  // forward through the entries: the order is fixed
-            last_cell_end = last;
             for (std::int64_t k = first; k < last; ++k, ++visited) all.insert({grid.index(k), period > 0 ? std::lround(grid.shift(k) / period) : 0});
         });
         EXPECT_EQ(visited, static_cast<std::int64_t>(all.size())) << "an entry came twice";
@@ -90,6 +88,43 @@ TEST(CellGrid, ClustersAndPointsFarAway) {
         for (std::int64_t k = first; k < last; ++k) found = found || grid.index(k) == p.size() - 1;
     });
     EXPECT_TRUE(found);
+}
+
+// The map of rings against the distance to every point: never more, and where points are near it knows.
+TEST(RingMap, BoundsTheDistanceToTheNextPoint) {
+    Random random(8);
+    for (const double period : {0.0, 2.5})
+        for (const int depth : {1, 3, 5})
+            for (const int n : {0, 7, 3000}) {
+                const double cell = random.uniform(0.1, 0.3), reach = depth * cell;
+                // many of them in a corner of the grid, so that most of it is empty
+                Points p = random_points(random, n, -3, n < 300 ? 3 : -1, 0, period > 0 ? period : 3);
+                p.add(3, 3, 2);
+                CellGrid grid;
+                grid.build(p.x.data(), p.y.data(), p.z.data(), p.size(), cell, reach, 0, period);
+                RingMap map;
+                map.build(grid.view(), depth);
+                int told = 0;
+                for (int q = 0; q < 400; ++q) {
+                    const double x = random.uniform(-4, 4), y = random.uniform(-4, 4), z = random.uniform(0, period > 0 ? period : 4);
+                    double nearest = 1e300, axis = 1e300;  // and the same along the axis on which it is furthest
+                    for (std::size_t i = 0; i < p.x.size(); ++i)
+                        for (int m = -3; m <= 3; ++m) {
+                            const double dx = std::abs(p.x[i] - x), dy = std::abs(p.y[i] - y), dz = std::abs(p.z[i] + m * period - z);
+                            nearest = std::min(nearest, std::sqrt(dx * dx + dy * dy + dz * dz));
+                            axis = std::min(axis, std::max({dx, dy, dz}));
+                        }
+                    const double bound = map.view().bound(x, y, z);
+                    EXPECT_LE(std::min(bound, reach), nearest);
+                    EXPECT_LE(bound, depth * grid.view().cell);
+                    // a place outside of the grid is looked up at its rim
+                    if (n == 3000 && std::abs(x) < 2.8 && std::abs(y) < 2.8 && z > 0.1 && z < 1.9) {
+                        EXPECT_GE(bound, std::min({axis - 2 * grid.view().cell, reach, depth * grid.view().cell}) - 1e-12);
+                        told += bound > 0;
+                    }
+                }
+                EXPECT_TRUE(n < 3000 || told > 50) << told;
+            }
 }
 
 TEST(CellGrid, EmptyAndSingle) {

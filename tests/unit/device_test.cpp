@@ -57,33 +57,50 @@ TEST(Launch, SumsHaveTheSameBitsOnAnyNumberOfThreads) {
     exec::set_threads(threads);
 }
 
+// Few items and many, which the threads share.
 TEST(Launch, SelectsInOrder) {
-    const Array<double> a = numbers(5000);
-    const double* const p = a.data();
-    Array<std::int32_t> found(5000);
-    std::int32_t* const f = found.data();
-    const std::int64_t count = exec::select(5000, BRISANCE_KERNEL(std::int64_t i) { return p[i] > 0.3; }, BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { f[k] = static_cast<std::int32_t>(i); });
-    std::vector<std::int32_t> expected;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (a[i] > 0.3) expected.push_back(static_cast<std::int32_t>(i));
-    found.resize(static_cast<std::size_t>(count));
-    EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+    const int threads = exec::threads();
+    for (const int n : {5000, 70001})
+        for (const int t : {1, 3}) {
+            exec::set_threads(t);
+            const Array<double> a = numbers(n);
+            const double* const p = a.data();
+            Array<std::int32_t> found(static_cast<std::size_t>(n));
+            std::int32_t* const f = found.data();
+            const std::int64_t count =
+                exec::select(n, BRISANCE_KERNEL(std::int64_t i) { return p[i] > 0.3; }, BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { f[k] = static_cast<std::int32_t>(i); });
+            std::vector<std::int32_t> expected;
+            for (std::size_t i = 0; i < a.size(); ++i)
+                if (a[i] > 0.3) expected.push_back(static_cast<std::int32_t>(i));
+            found.resize(static_cast<std::size_t>(count));
+            EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end())) << n << " items, " << t << " threads";
+        }
+    exec::set_threads(threads);
 }
 
 TEST(Launch, SortsIntoBucketsAndKeepsTheOrderWithin) {
-    const std::int64_t n = 3000, buckets = 40;
-    Array<std::int32_t> bucket(static_cast<std::size_t>(n)), order(static_cast<std::size_t>(n));
-    Array<std::int64_t> begin(static_cast<std::size_t>(buckets + 1));
-    law_test::Random random(3);
-    for (std::int32_t& b : bucket) b = static_cast<std::int32_t>(random.uniform(3, 37));  // the first and the last are empty
-    exec::bucket_sort(bucket.data(), n, buckets, order.data(), begin.data());
-    exec::wait();
-    std::vector<std::int32_t> expected(static_cast<std::size_t>(n));
-    std::iota(expected.begin(), expected.end(), 0);
-    std::stable_sort(expected.begin(), expected.end(), [&](std::int32_t a, std::int32_t b) { return bucket[static_cast<std::size_t>(a)] < bucket[static_cast<std::size_t>(b)]; });
-    EXPECT_TRUE(std::equal(order.begin(), order.end(), expected.begin()));
-    for (std::int64_t b = 0; b <= buckets; ++b)
-        EXPECT_EQ(begin[static_cast<std::size_t>(b)], std::count_if(bucket.begin(), bucket.end(), [&](std::int32_t x) { return x < b; }));
+    const int threads = exec::threads();
+    for (const std::int64_t n : {3000, 50000})
+        for (const std::int64_t buckets : {1, 40, 200000})
+            for (const int t : {1, 3}) {
+                exec::set_threads(t);
+                Array<std::int32_t> bucket(static_cast<std::size_t>(n)), order(static_cast<std::size_t>(n));
+                Array<std::int64_t> begin(static_cast<std::size_t>(buckets + 1));
+                law_test::Random random(3);
+                // some are empty, the first and the last among them
+                for (std::int32_t& b : bucket) b = static_cast<std::int32_t>(static_cast<double>(buckets) * random.uniform(0.1, 0.9));
+                exec::bucket_sort(bucket.data(), n, buckets, order.data(), begin.data());
+                exec::wait();
+                std::vector<std::int32_t> expected(static_cast<std::size_t>(n));
+                std::iota(expected.begin(), expected.end(), 0);
+                std::stable_sort(expected.begin(), expected.end(), [&](std::int32_t a, std::int32_t b) { return bucket[static_cast<std::size_t>(a)] < bucket[static_cast<std::size_t>(b)]; });
+                EXPECT_TRUE(std::equal(order.begin(), order.end(), expected.begin())) << n << " items, " << buckets << " buckets, " << t << " threads";
+                std::vector<std::int64_t> starts(static_cast<std::size_t>(buckets + 1));
+                for (const std::int32_t b : bucket) ++starts[static_cast<std::size_t>(b) + 1];
+                std::partial_sum(starts.begin(), starts.end(), starts.begin());
+                EXPECT_TRUE(std::equal(begin.begin(), begin.end(), starts.begin(), starts.end())) << n << " items, " << buckets << " buckets, " << t << " threads";
+            }
+    exec::set_threads(threads);
 }
 
 #ifdef BRISANCE_SPLIT

@@ -11,29 +11,22 @@
 
 namespace brisance {
 
-void light(FluidBody& b, const std::vector<Detonator>& detonators) {
-    for (std::size_t i = 0; i < b.lit.size(); ++i) {
-        b.lit[i] = 1e300;
-        for (const Detonator& d : detonators) {
-            double distance = 0;
-            if (d.kind != 2) {
-                double p[3], axis[3], length2 = 0, along = 0;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    p[k] = b.x[k][i] - d.from[k];
-                    axis[k] = d.to[k] - d.from[k];
-                    length2 += axis[k] * axis[k];
-                    along += p[k] * axis[k];
-                }
-                const double t = d.kind == 1 && length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const double q = p[k] - t * axis[k];
-                    distance += q * q;
-                }
-                distance = std::sqrt(distance);
-            }
-            b.lit[i] = std::min(b.lit[i], d.time + distance / b.material.burn->speed);
+double lighting_time(const Vec3<double>& at, const std::vector<Detonator>& detonators, double speed) {
+    double first = 1e300;
+    for (const Detonator& d : detonators) {
+        double distance = 0;
+        if (d.kind != 2) {
+            const Vec3<double> from{d.from[0], d.from[1], d.from[2]}, axis = Vec3<double>{d.to[0], d.to[1], d.to[2]} - from, p = at - from;
+            const double length2 = dot(axis, axis), t = d.kind == 1 && length2 > 0 ? std::clamp(dot(p, axis) / length2, 0.0, 1.0) : 0.0;
+            distance = norm(p - t * axis);
         }
+        first = std::min(first, d.time + distance / speed);
     }
+    return first;
+}
+
+void light(FluidBody& b, const std::vector<Detonator>& detonators) {
+    for (std::size_t i = 0; i < b.lit.size(); ++i) b.lit[i] = lighting_time({b.x[0][i], b.x[1][i], b.x[2][i]}, detonators, b.material.burn->speed);
 }
 
 namespace {
@@ -106,12 +99,18 @@ BRISANCE_HD Sym3<double> correction(const Sym3<double>& m) {
     return {(1 + e2) * c.xx, (1 + e2) * c.yy, (1 + e2) * c.zz, (1 + e2) * c.xy, (1 + e2) * c.xz, (1 + e2) * c.yz};
 }
 
-/// Particle i and a pack of its neighbours: grad_i W = -weight d.
+/// Particle i and a pack of its neighbours.
 template <class V>
 struct Pairs {
     Vec3<V> d, v;          ///< x_i - x_j, v_i - v_j
-    V h, r2, u;            ///< mean h, |d|^2, |d|/h
-    V volume, weight;      ///< of j; -W'/r
+    V h, r2, r;            ///< mean h, |d|^2, |d|
+    V volume;              ///< of j
+
+    /// -W'/r, that is grad_i W = -weight d, with one division.
+    BRISANCE_INLINE V weight() const {
+        const V inverse_rh = 1.0 / (r * h), inverse_h = inverse_rh * r, h2 = inverse_h * inverse_h;
+        return kernel::sigma_3d * h2 * h2 * inverse_h * kernel::bond(r * inverse_h, h * (h * inverse_rh));
+    }
 };
 
 /// `me` and `records`: x y z h, m/rho, v of the particle and of all entries.
@@ -125,9 +124,7 @@ BRISANCE_INLINE Pairs<V> pairs(const double* me, const double* records, const st
     p.h = 0.5 * (me[3] + r[3]);
     p.volume = r[4];
     p.r2 = dot(p.d, p.d);
-    const V inverse_h = 1.0 / p.h, h2 = inverse_h * inverse_h;
-    p.u = vmin(vsqrt(p.r2) * inverse_h, broadcast<V>(2.0));
-    p.weight = kernel::sigma_3d * h2 * h2 * inverse_h * kernel::bond(p.u);
+    p.r = vsqrt(p.r2);
     return p;
 }
 
@@ -184,7 +181,7 @@ struct DivergenceKernel {
         Mat3<V> g;
         w.neighbours.packs(k, [&](const std::int32_t* list) {
             const Pairs<V> p = pairs<V>(me, motion, list);
-            const Vec3<V> u = (p.volume * p.weight) * p.d;
+            const Vec3<V> u = (p.volume * p.weight()) * p.d;
             m.xx += u.x * p.d.x;
             m.yy += u.y * p.d.y;
             m.zz += u.z * p.d.z;
@@ -201,9 +198,10 @@ struct DivergenceKernel {
             g.zy += u.z * p.v.y;
             g.zz += u.z * p.v.z;
         });
-        const Sym3<double> l = correction({hsum(m.xx), hsum(m.yy), hsum(m.zz), hsum(m.xy), hsum(m.xz), hsum(m.yz)});
-        const double divergence = l.xx * hsum(g.xx) + l.yy * hsum(g.yy) + l.zz * hsum(g.zz) + l.xy * hsum(g.xy + g.yx) + l.xz * hsum(g.xz + g.zx) +
-                                  l.yz * hsum(g.yz + g.zy);
+        double s[12];
+        hsums({m.xx, m.yy, m.zz, m.xy, m.xz, m.yz, g.xx, g.yy, g.zz, g.xy + g.yx, g.xz + g.zx, g.yz + g.zy}, s);
+        const Sym3<double> l = correction({s[0], s[1], s[2], s[3], s[4], s[5]});
+        const double divergence = l.xx * s[6] + l.yy * s[7] + l.zz * s[8] + l.xy * s[9] + l.xz * s[10] + l.yz * s[11];
         const double closing = -std::min(divergence, 0.0) * me[3];
         w.correction[i] = l;
         b.rho_rate[i] = -divergence;
@@ -249,34 +247,36 @@ struct RatesKernel {
             V other[8];  // rho, c, (P + q) L
             load_records<V>(w.response, list, other);
             const V vr = dot(p.v, p.d), mj = p.volume * other[0];
-            const V mu = vmin(p.h * vr / (p.r2 + 0.01 * p.h * p.h), V{});
-            const V pi = 2.0 * mu * (beta * mu - alpha * (0.5 * (c + other[1]))) / (rho + other[0]);
+            // the weight has to be that of the first pass to the last bit: what P dV gives there, its force takes here
+            const V weight = p.weight(), apart = p.r2 + 0.01 * p.h * p.h, densities = rho + other[0], inverse = 1.0 / (apart * densities);
+            const V mu = vmin(p.h * vr * (inverse * densities), V{});
+            const V pi = 2.0 * mu * (beta * mu - alpha * (0.5 * (c + other[1]))) * (inverse * apart);
             V bracket = pi;
             if (tension) {
                 alignas(64) double r_j[width];
                 for (int l = 0; l < width; ++l) r_j[l] = list[l] < w.grid.entries ? resistance(list[l]) : 0.0;
-                const V wi = kernel::shape(p.u), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
+                const V wi = kernel::shape(p.r / p.h), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
                 const V extra = -(r_i + load<V>(r_j)) * power(wi / vmax(w0, broadcast<V>(1e-6)), exponent);
                 bracket += extra;
-                artificial -= 0.5 * mj * extra * p.weight * vr;
+                artificial -= 0.5 * mj * extra * weight * vr;
             }
             const Sym3<V> p_sum{mine[2] + other[2], mine[3] + other[3], mine[4] + other[4], mine[5] + other[5], mine[6] + other[6], mine[7] + other[7]};
-            const V volume = p.volume * p.weight, along = mj * p.weight * bracket * rho;
+            const V volume = p.volume * weight, along = mj * weight * bracket * rho;
             const Vec3<V> push = p_sum * p.d;
             ax += volume * push.x + along * p.d.x;
             ay += volume * push.y + along * p.d.y;
             az += volume * push.z + along * p.d.z;
-            const V wv = mj * p.weight * vr;
+            const V wv = mj * weight * vr;
             heat -= 0.5 * bracket * wv;
             viscous -= 0.5 * pi * wv;
             mu_largest = vmax(mu_largest, -mu);
         });
-        b.acceleration[0][i] = hsum(ax) / rho;
-        b.acceleration[1][i] = hsum(ay) / rho;
-        b.acceleration[2][i] = hsum(az) / rho;
-        b.e_rate[i] = (b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + hsum(heat);
+        double s[6];
+        hsums({ax, ay, az, heat, viscous, artificial}, s);
+        for (int a = 0; a < 3; ++a) b.acceleration[a][i] = s[a] / rho;
+        b.e_rate[i] = (b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + s[3];
         w.mu[i] = hmax(mu_largest);
-        return {b.mass[i] * (hsum(viscous) + w.q[i] / rho * b.rho_rate[i]), b.mass[i] * hsum(artificial)};
+        return {b.mass[i] * (s[4] + w.q[i] / rho * b.rho_rate[i]), b.mass[i] * s[5]};
     }
 };
 

@@ -9,6 +9,8 @@
 #include "laws/strength.h"
 #include "math/power.h"
 
+#include <limits>
+
 namespace brisance {
 
 struct JohnsonCook {
@@ -65,47 +67,65 @@ struct JohnsonCook {
         const V log_rate = natural_log(vmax(equivalent_rate(p) / R(eps0), one));
         const V rate = one + R(C) * log_rate;
         const V theta = clamp(heating / R(t_span), zero, one);
-        const V soft = rate * (one - power(theta, R(m))) * s_intact;
-        const V a = R(A) * soft, b = R(B) * soft, before = power(eps, R(n));
+        const V soft = rate * (one - power_of_some(theta, R(m))) * s_intact;
+        const V a = R(A) * soft, b = R(B) * soft, before = power_of_some(eps, R(n));
         const V y0 = a + b * before;
         // g(de) = s_eq - 3 G de - a - b (eps + de)^n falls from over > 0 at 0 to g <= 0 at over/(3G). Newton's method is monotone from the
         // side on which g is steep. n >= 1: the right end. n < 1: below the root, where b (eps + de)^n grows at most by b n eps^(n-1) de
         // and by b de^n; near eps = 0 the right end would be off by orders of magnitude.
         const V tiny = broadcast<V>(detail::FloatLayout<R>::tiny);
         const V over = vmax(s_eq - y0, zero);
+        const bool yields = any_lane(over > zero);
         V low = zero, high = over / R(3 * G), de = high;
-        if (n < 1) {
+        if (n < 1 && yields) {
             const V by_slope = (eps > zero) ? over / (R(3 * G) + R(n) * b * before / vmax(eps, tiny)) : zero;
             const V by_power = power(over / vmax(b + b, broadcast<V>(R(1e-30))), R(1 / n));
             de = vmax(by_slope, vmin(R(0.5) * high, by_power));
         }
-        for (int it = 0; it < 12; ++it) {
+        V moving = (over > zero) ? one : zero;  // a lane that has arrived stays, whatever its neighbours still need
+        for (int it = 0; it < 12 && any_lane(moving > zero); ++it) {
             const V strain = eps + de, hardening = b * power(strain, R(n));
             const V g = s_eq - R(3 * G) * de - (a + hardening);
             low = (g > zero) ? de : low;
             high = (g > zero) ? high : de;
             const V next = de + g / (R(3 * G) + R(n) * hardening / vmax(strain, tiny));
             const V middle = R(0.5) * (low + high);
-            de = (next >= low) ? ((next <= high) ? next : middle) : middle;
+            const V last = de, now = (next >= low) ? ((next <= high) ? next : middle) : middle;
+            de = (moving > zero) ? now : de;
+            moving = (vabs(de - last) > R(4 * std::numeric_limits<R>::epsilon()) * de) ? moving : zero;
         }
         de = (s_eq > y0) ? de : zero;
         const V y = vmax(s_eq - R(3 * G) * de, zero);
         p.s = scaled(trial, (s_eq > y0) ? y / vmax(s_eq, broadcast<V>(R(1e-30))) : one);
         p.state[1] = eps + de;
         p.state[2] = heating + R(0.5 * heat) * (vmin(y0, s_eq) + y) * de;
+        if (!counts_damage) {
+            settle(p, y0);
+            return;
+        }
         const V triaxiality = clamp(-p.pressure / vmax(y, broadcast<V>(R(1e-6))), broadcast<V>(R(-1.5)), broadcast<V>(R(1.5)));
         const V eps_f = (R(d[0]) + R(d[1]) * exponential(R(d[2]) * triaxiality)) * (one + R(d[3]) * log_rate) *
                         (one + R(d[4]) * theta);
-        p.state[0] = counts_damage ? vmin(damage + de / vmax(eps_f, broadcast<V>(R(1e-6))), one) : damage;
-        p.yield = y0;
-        p.shear_stiffness = broadcast<V>(R(4.0 / 3.0 * G));
-        // A full elastic zero-energy spring would lock plastic flow: beyond a small plastic strain it is kept at a tenth.
-        p.integrity = (p.state[1] > broadcast<V>(R(1e-3))) ? broadcast<V>(R(0.1)) : one;
+        p.state[0] = vmin(damage + de / vmax(eps_f, broadcast<V>(R(1e-6))), one);
+        settle(p, y0);
     }
 
     double G, A, B, n, C, m, eps0, t_span, heat;
     bool damages, counts_damage = false;
     double d[5];
+
+private:
+    /// x^y of a pack in which often every lane is 0.
+    template <class V> BRISANCE_HD static V power_of_some(V x, ScalarOf<V> y) {
+        return any_lane(x > V{}) ? power(x, y) : V{};
+    }
+    template <class V> BRISANCE_HD void settle(SolidPoint<V>& p, V y0) const {
+        using R = ScalarOf<V>;
+        p.yield = y0;
+        p.shear_stiffness = broadcast<V>(R(4.0 / 3.0 * G));
+        // A full elastic zero-energy spring would lock plastic flow: beyond a small plastic strain it is kept at a tenth.
+        p.integrity = (p.state[1] > broadcast<V>(R(1e-3))) ? broadcast<V>(R(0.1)) : broadcast<V>(R(1));
+    }
 };
 
 }  // namespace brisance
