@@ -29,7 +29,7 @@ MUTANTS = {
     "pressure_work_halved": ("half of P dV in the energy of a fluid", FLUID, "(b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + s[3]",
                              "0.5 * (b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + s[3]", ("jwl_release", "sod")),
     "mirror_velocity": ("a mirror image moves as its particle does", FLUID, "sign(k, 0) * b.v_now[0][i]", "b.v_now[0][i]", ("water_hugoniot",)),
-    "lit_early": ("the detonation runs a tenth too fast", FLUID, "d.time + distance / b.material.burn->speed", "d.time + distance / (1.1 * b.material.burn->speed)", ("detonation",)),
+    "lit_early": ("the detonation runs a tenth too fast", FLUID, "d.time + distance / speed", "d.time + distance / (1.1 * speed)", ("detonation",)),
     "burn_energy": ("the energy of fluids is 1.1 times what it should be", "src/app/assembly.cpp", "const double e0 = b.material.eos->initial_energy() / b.material.density;",
                     "const double e0 = 1.1 * b.material.eos->initial_energy() / b.material.density;", ("detonation", "jwl_release")),
     "jwl_sign": ("the second exponential of JWL counts against the first", "src/laws/eos/jwl.h", "(R(1) - q1) * e1 + (R(1) - q2) * e2,", "(R(1) - q1) * e1 - (R(1) - q2) * e2,",

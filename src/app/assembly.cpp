@@ -280,8 +280,8 @@ Estimate estimate(const Case& c) {
     for (const Estimate::Part& p : e.parts)
         if (!p.burns || e.parts.size() == 1) after = std::min(after, p.dt);
     e.steps = burning / while_burning + (c.until - burning) / after;
-    // Particle-steps per second of one core, contact among what fluids cost; measured with the presets quick and full of cases/blast.
-    constexpr double solid_rate = 3.9e6, fluid_rate = 0.4e6;
+    // Particle-steps per second of one core, contact among what fluids cost; measured with cases/blast, solids in the preset quick, fluids in full.
+    constexpr double solid_rate = 3.9e6, fluid_rate = 0.27e6;
     for (const Estimate::Part& p : e.parts) {
         const auto long_steps = [&](double time, double fast) { return time / std::clamp(p.dt, fast, most_short_steps * fast); };
         const bool solid = p.formulation == "total_lagrangian";

@@ -29,11 +29,10 @@ public:
         for (auto* a : {&x_, &y_, &z_}) make_room(*a, static_cast<std::size_t>(n));
         exec::launch(n, Gather{{x, y, z}, list_.data(), {x_.data(), y_.data(), z_.data()}}, 1024);
         grid_.build(x_.data(), y_.data(), z_.data(), n, cell, reach, z_low, period);
-        if (looks > 2 * grid_.view().cells()) rings_.build(grid_.view(), depth);
-        else rings_.clear();
+        rings_.build(grid_.view(), looks > 2 * grid_.view().cells() ? depth : 0);
     }
-    const CellGridView& grid() const { return grid_.view(); }
-    const RingMapView& rings() const { return rings_.view(); }
+    /// The grid and its map.
+    const RingMapView& view() const { return rings_.view(); }
 
 private:
     Array<std::int32_t> list_;

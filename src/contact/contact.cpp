@@ -37,7 +37,7 @@ double clearance(const double* ax, const double* ay, const double* az, std::int6
     const std::int64_t count = exec::select(nb, BRISANCE_KERNEL(std::int64_t i) { return box.beside(bx[i], by[i], reach); },
                                             BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { list[k] = static_cast<std::int32_t>(i); });
     beside.build(bx, by, bz, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth);
-    const RingMapView rings = beside.rings();
+    const RingMapView rings = beside.view();
     const double nearest = -exec::launch_max(na, -reach, BRISANCE_KERNEL(std::int64_t n) { return -rings.bound(ax[n], ay[n], az[n]); });
     return std::max(0.0, nearest - range);
 }

@@ -24,8 +24,7 @@ struct Touched {
 /// Particles of one size, within a factor of two (the last: and all that are larger). Gas that has expanded into the open is many times as wide as
 /// the rest: in one grid with it, everybody would look through cells of its size.
 struct Layer {
-    CellGridView grid;
-    RingMapView rings;
+    RingMapView map;
     const std::int32_t* points = nullptr;
     double widest = 0;
 };
@@ -63,7 +62,7 @@ Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, st
         if (count > 0) {
             const double widest = exec::launch_max(count, 0.0, BRISANCE_KERNEL(std::int64_t m) { return spacing[points.particle(list[m])]; });
             sorted.chosen[k].build(points.place[0], points.place[1], points.place[2], count, widest, largest, b.z_low, b.period, looks);
-            s.layer[k] = {sorted.chosen[k].grid(), sorted.chosen[k].rings(), list, widest};
+            s.layer[k] = {sorted.chosen[k].view(), list, widest};
         }
         above = below;
         below *= 2;
@@ -81,12 +80,13 @@ struct NodeKernel {
         double f[3] = {0, 0, 0};
         for (const Layer& layer : other.layer) {
             const double reach = 0.5 * (me.spacing[i] + layer.widest);
-            if (layer.grid.entries == 0 || layer.rings.bound(p.x[0][i], p.x[1][i], p.x[2][i]) >= reach) continue;
-            layer.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], reach, [&](std::int64_t first, std::int64_t last) {
+            const CellGridView& grid = layer.map.grid;
+            if (grid.entries == 0 || layer.map.bound(p.x[0][i], p.x[1][i], p.x[2][i]) >= reach) continue;
+            grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], reach, [&](std::int64_t first, std::int64_t last) {
                 for (std::int64_t k = first; k < last; ++k) {
-                    const std::int64_t point = layer.points[layer.grid.index[k]], j = other.points.particle(point);
+                    const std::int64_t point = layer.points[grid.index[k]], j = other.points.particle(point);
                     const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
-                                 dz = p.x[2][i] - other.points.place[2][point] - layer.grid.shift[k];
+                                 dz = p.x[2][i] - other.points.place[2][point] - grid.shift[k];
                     const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.spacing[i] + other.spacing[j]);
                     if (r2 >= d * d || r2 < 1e-24) continue;
                     const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;

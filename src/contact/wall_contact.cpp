@@ -110,8 +110,7 @@ struct WallRows {
 /// The force of the wall on a node.
 struct WallKernel {
     Nodes nodes;
-    CellGridView grid;
-    RingMapView rings;
+    RingMapView map;
     SortedView<14> w;
     Extent extent;
     ContactOptions o;
@@ -129,9 +128,9 @@ private:
         const Vec3<V> at{broadcast<V>(x), broadcast<V>(y), broadcast<V>(z)};
         const double near = extent.near(reached), reach = extent.reach(reached);
         // most nodes are far from the wall: is any point of it near, with the node not well in front?
-        if (rings.bound(x, y, z) >= near) return;
+        if (map.bound(x, y, z) >= near) return;
         bool close = false;
-        grid.ranges(x, y, z, near, [&](std::int64_t first, std::int64_t last) {
+        map.grid.ranges(x, y, z, near, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last && !close; q += width) {
                 const Vec3<V> d{at.x - w(0, q), at.y - w(1, q), at.z - w(2, q)};
                 const V ahead = d.x * w(3, q) + d.y * w(4, q) + d.z * w(5, q);
@@ -141,7 +140,7 @@ private:
         if (!close) return;
         V weights{}, gaps{}, modulus{};
         Vec3<V> normals, velocities;
-        grid.ranges(x, y, z, reach, [&](std::int64_t first, std::int64_t last) {
+        map.grid.ranges(x, y, z, reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
                 const V facing = nodes.normal[0] ? nodes.normal[0][i] * s.normal.x + nodes.normal[1][i] * s.normal.y + nodes.normal[2][i] * s.normal.z : broadcast<V>(-1.0);
@@ -219,19 +218,18 @@ struct NodeRows {
 struct ReactionKernel {
     SurfaceView wall;
     const std::int32_t* active;
-    CellGridView grid;
-    RingMapView rings;
+    RingMapView map;
     SortedView<10> p;
     double reach;
     bool faces;
     BRISANCE_HD void operator()(std::int64_t m) const {
         const std::int32_t j = active[m];
-        if (rings.bound(wall.x[j], wall.y[j], wall.z[j]) >= reach) return;
+        if (map.bound(wall.x[j], wall.y[j], wall.z[j]) >= reach) return;
         const WallPoint s{{broadcast<V>(wall.x[j]), broadcast<V>(wall.y[j]), broadcast<V>(wall.z[j])},
                           {broadcast<V>(wall.n[0][j]), broadcast<V>(wall.n[1][j]), broadcast<V>(wall.n[2][j])},
                           broadcast<V>(wall.spacing[j]), broadcast<V>(wall.dz[j]), broadcast<V>(wall.depth[j]), broadcast<V>(wall.area[j])};
         Vec3<V> f;
-        grid.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
+        map.grid.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const V facing = faces ? p(4, q) * s.normal.x + p(5, q) * s.normal.y + p(6, q) * s.normal.z : broadcast<V>(-1.0);
                 V gap;
@@ -267,13 +265,13 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     });
     // cells for nodes of usual size; few gas particles have expanded far, and they look into more cells
     active_points.build(wall.x, wall.y, wall.z, count, 0.5 * extent.reach(0), extent.reach(radius), z_low, period, nodes.n);
-    const CellGridView walls = active_points.grid();
+    const CellGridView walls = active_points.view().grid;
     const SortedView<14> w = wall_columns.room(walls.entries);
     exec::launch(walls.entries + width, WallRows{wall, active, walls, w}, 1024);
 
     make_room(touches, static_cast<std::size_t>(nodes.n));
     Touch* const touch = touches.data();
-    exec::launch(nodes.n, WallKernel{nodes, walls, active_points.rings(), w, extent, o, touch});
+    exec::launch(nodes.n, WallKernel{nodes, active_points.view(), w, extent, o, touch});
 
     std::int32_t* const touching = touching_nodes.list(nodes.n);
     ContactReport report;
@@ -289,10 +287,10 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
 
     const double reach = extent.reach(touched.radius);
     touching_nodes.build(nodes.x[0], nodes.x[1], nodes.x[2], report.touching, 0.5 * reach, reach, z_low, period, count);
-    const CellGridView points = touching_nodes.grid();
+    const CellGridView points = touching_nodes.view().grid;
     const SortedView<10> p = node_columns.room(points.entries);
     exec::launch(points.entries + width, NodeRows{nodes, touching, touch, points, p}, 1024);
-    exec::launch(count, ReactionKernel{wall, active, points, touching_nodes.rings(), p, reach, nodes.normal[0] != nullptr});
+    exec::launch(count, ReactionKernel{wall, active, touching_nodes.view(), p, reach, nodes.normal[0] != nullptr});
     return report;
 }
 

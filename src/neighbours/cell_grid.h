@@ -20,7 +20,7 @@ struct CellGridView {
     const std::int32_t* index = nullptr;
     const double* shift = nullptr;
 
-    static constexpr int strip = 8;  ///< rows
+    static constexpr int strip = 8;  ///< rows, a power of 2
     /// Places for cells, the strip that is not full included.
     std::int64_t cells() const { return static_cast<std::int64_t>((n[1] + strip - 1) / strip) * strip * n[0] * n[2]; }
     /// The first cell of a row.
@@ -36,11 +36,18 @@ struct CellGridView {
     BRISANCE_HD void ranges(double x, double y, double z, double reach, F&& f) const {
         if (entries == 0) return;
         const int i0 = place(x - reach, 0), i1 = place(x + reach, 0), j0 = place(y - reach, 1), j1 = place(y + reach, 1), k0 = place(z - reach, 2), k1 = place(z + reach, 2);
-        for (int k = k0; k <= k1; ++k)
+        // from a row to the next along y, within a strip and into the next one, and along z
+        const std::int64_t along_z = static_cast<std::int64_t>(strip) * n[0], step = n[0], leap = n[2] * along_z - (strip - 1) * step;
+        const std::int64_t* low = begin + row(j0, k0) + i0;
+        const std::int64_t width = i1 + 1 - i0;
+        for (int k = k0; k <= k1; ++k, low += along_z) {
+            const std::int64_t* at = low;
             for (int j = j0; j <= j1; ++j) {
-                const std::int64_t cells = row(j, k), first = begin[cells + i0], last = begin[cells + i1 + 1];
+                const std::int64_t first = at[0], last = at[width];
                 if (first < last) f(first, last);
+                at += (j & (strip - 1)) == strip - 1 ? leap : step;
             }
+        }
     }
 };
 

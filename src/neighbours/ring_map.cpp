@@ -54,13 +54,15 @@ struct SpreadKernel {
 }  // namespace
 
 void RingMap::build(const CellGridView& grid, int depth) {
+    view_ = {grid, nullptr};
+    if (depth == 0) return;
     for (auto* a : {&rings_, &between_}) make_room(*a, static_cast<std::size_t>(grid.cells()));
     const std::int64_t rows = static_cast<std::int64_t>(grid.n[1]) * grid.n[2];
     exec::launch(rows, OccupiedKernel{grid, depth, between_.data()});
     exec::launch(rows, SpreadKernel{grid, depth, 0, between_.data(), rings_.data()});
     exec::launch(rows, SpreadKernel{grid, depth, 1, rings_.data(), between_.data()});
     exec::launch(rows, SpreadKernel{grid, depth, 2, between_.data(), rings_.data()});
-    view_ = {grid, rings_.data()};
+    view_.rings = rings_.data();
 }
 
 }  // namespace brisance

@@ -9,7 +9,7 @@ namespace brisance {
 /// The map as kernels take it. Rings of cells around a cell: 0 where it holds points itself, 1 where one of its 26 neighbours does, ...
 struct RingMapView {
     CellGridView grid;
-    const std::uint8_t* rings = nullptr;  ///< null: nothing is known
+    const std::uint8_t* rings = nullptr;  ///< null: there is none
 
     /// A lower bound of the distance from (x, y, z) to the grid's points, mm; no more than the map is deep. Where the grid is periodic it is one
     /// as far as the grid's images reach.
@@ -22,9 +22,8 @@ struct RingMapView {
 
 class RingMap {
 public:
-    /// Looks `depth` rings far; cells that have nothing within them get depth + 1.
+    /// Looks `depth` rings far; cells that have nothing within them get depth + 1. With a depth of 0 there is no map, and every bound is 0.
     void build(const CellGridView& grid, int depth);
-    void clear() { view_ = {}; }
     const RingMapView& view() const { return view_; }
 
 private:
