@@ -145,12 +145,13 @@ template <int step, class V> BRISANCE_INLINE V fold_all(const V* x) {
 }  // namespace detail
 /// sum[k] = hsum(x[k]), in the same order, for much less.
 template <class V, int m> BRISANCE_INLINE void hsums(const V (&x)[m], ScalarOf<V> (&sum)[m]) {
-    constexpr int n = lanes_of<V>, whole = (m + n - 1) / n * n;
+    constexpr int n = lanes_of<V>;
     if constexpr (n == 1) {
         for (int k = 0; k < m; ++k) sum[k] = x[k];
     }
 #ifndef BRISANCE_CUDA
     else {
+        constexpr int whole = (m + n - 1) / n * n;
         V padded[whole]{};
         ScalarOf<V> folded[whole];
         for (int k = 0; k < m; ++k) padded[k] = x[k];
