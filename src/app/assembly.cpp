@@ -266,9 +266,11 @@ Estimate estimate(const Case& c) {
                         : c.step.courant_fluid * p.smoothing * p.spacing /
                               (std::max(m.sound_speed(), m.burn ? m.burn->speed : 0.0) * (1 + 0.6 * p.viscosity.alpha));
         part.burns = m.burn != nullptr;
-        if (part.burns)
+        if (part.burns) {
+            const std::vector<Detonator> detonators = detonators_of(c, p);
             for (int corner = 0; corner < 8; ++corner)
-                e.burn = std::max(e.burn, lighting_time({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? high : low}, detonators_of(c, p), m.burn->speed));
+                e.burn = std::max(e.burn, lighting_time({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? high : low}, detonators, m.burn->speed));
+        }
         e.parts.push_back(part);
         e.particles += part.particles;
         e.bytes += part.bytes;

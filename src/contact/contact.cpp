@@ -27,18 +27,17 @@ void FluidForces::begin(const FluidBody& body) {
     });
 }
 
-double clearance(const double* ax, const double* ay, const double* az, std::int64_t na, const double* bx, const double* by, const double* bz,
-                 std::int64_t nb, double range, double horizon, double z_low, double period) {
+double clearance(const Places& a, const Places& b, double range, double horizon, double z_low, double period) {
     constexpr int depth = 5;
     const double reach = range + horizon;
     static ChosenPoints beside;  // kept for its memory; contact is not re-entrant
-    const Box box = box_of(ax, ay, az, na);
-    std::int32_t* const list = beside.list(nb);
-    const std::int64_t count = exec::select(nb, BRISANCE_KERNEL(std::int64_t i) { return box.beside(bx[i], by[i], reach); },
+    const PointBox box = box_of(a.x, a.y, a.z, a.n);
+    std::int32_t* const list = beside.list(b.n);
+    const std::int64_t count = exec::select(b.n, BRISANCE_KERNEL(std::int64_t i) { return box.beside(b.x[i], b.y[i], reach); },
                                             BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { list[k] = static_cast<std::int32_t>(i); });
-    beside.build(bx, by, bz, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth);
+    beside.build(b.x, b.y, b.z, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth);
     const RingMapView rings = beside.view();
-    const double nearest = -exec::launch_max(na, -reach, BRISANCE_KERNEL(std::int64_t n) { return -rings.bound(ax[n], ay[n], az[n]); });
+    const double nearest = -exec::launch_max(a.n, -reach, BRISANCE_KERNEL(std::int64_t i) { return -rings.bound(a.x[i], a.y[i], a.z[i]); });
     return std::max(0.0, nearest - range);
 }
 

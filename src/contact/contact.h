@@ -93,10 +93,17 @@ struct FluidForces {
     void begin(const FluidBody& body);
 };
 
+/// Where the points of a part are.
+struct Places {
+    const double *x, *y, *z;
+    std::int64_t n;
+};
+inline Places places(const FluidBody& b) { return {b.x[0].data(), b.x[1].data(), b.x[2].data(), b.size()}; }
+inline Places places(const Surface& s) { return {s.x.data(), s.y.data(), s.z.data(), static_cast<std::int64_t>(s.size())}; }
+
 /// A lower bound of the distance that two sets of points can still close before they touch, mm; 0 where they may touch now.
-/// `range` is the distance at which they touch; searched no farther than range + horizon.
-double clearance(const double* ax, const double* ay, const double* az, std::int64_t na, const double* bx, const double* by, const double* bz,
-                 std::int64_t nb, double range, double horizon, double z_low, double period);
+/// `range` is the distance at which they touch; searched no farther than range + horizon, and told in fifths of that.
+double clearance(const Places& a, const Places& b, double range, double horizon, double z_low, double period);
 
 /// Node to node between two fluids, each with its images in its mirrors; adds to both force arrays.
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb);

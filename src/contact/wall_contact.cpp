@@ -253,7 +253,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     const SurfaceView wall = view(surface);
     const double radius = nodes.largest_radius;
     // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
-    const Box box = box_of(nodes.x[0], nodes.x[1], nodes.x[2], nodes.n);
+    const PointBox box = box_of(nodes.x[0], nodes.x[1], nodes.x[2], nodes.n);
     std::int32_t* const active = active_points.list(wall.size);
     const std::int64_t count = exec::select(wall.size, BRISANCE_KERNEL(std::int64_t j) {
         return box.beside(wall.x[j], wall.y[j], radius + wall.depth[j] + 2 * wall.spacing[j]);

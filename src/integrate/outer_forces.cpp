@@ -66,40 +66,37 @@ void outer_forces(World<R>& w) {
                              (c.kind == ContactPair::fluid_fluid ? fluid_speed[c.b] : solid_speed[c.b]);
         c.clear -= w.dt * speed;
         if (c.clear > 0) continue;
-        // after a pass in which nothing touched: how far can the two move before something does?
-        constexpr double horizon = 0.5;  // mm
-        const auto look_ahead = [&](const ContactReport& r, const auto& distance) {
-            if (r.touching > 0 || --c.patience > 0) return;
-            c.clear = distance();
-            c.patience = c.clear > 0 ? 0 : 16;
-        };
+        ContactReport r;
+        Places places_a{}, places_b{};
+        double range = 0;
         if (c.kind == ContactPair::fluid_fluid) {
             FluidPart &a = w.fluids[c.a], &b = w.fluids[c.b];
-            const ContactReport r = node_contact(a.body, b.body, options, a.forces, b.forces);
+            r = node_contact(a.body, b.body, options, a.forces, b.forces);
             add(r, a.body.name, b.body.name);
-            look_ahead(r, [&] {
-                return clearance(a.body.x[0].data(), a.body.x[1].data(), a.body.x[2].data(), a.body.size(), b.body.x[0].data(), b.body.x[1].data(), b.body.x[2].data(),
-                                 b.body.size(), 1.2 * std::max(a.forces.largest_spacing, b.forces.largest_spacing), horizon, w.z_low, w.period);
-            });
+            places_a = places(a.body);
+            places_b = places(b.body);
+            range = 1.2 * std::max(a.forces.largest_spacing, b.forces.largest_spacing);
         } else if (c.kind == ContactPair::fluid_solid) {
             FluidPart& a = w.fluids[c.a];
-            Surface& s = w.solids[c.b].surface;
-            const ContactReport r = wall_contact(a.body, s, options, w.z_low, w.period, a.forces);
-            add(r, a.body.name, w.solids[c.b].body.name);
-            look_ahead(r, [&] {
-                return clearance(a.body.x[0].data(), a.body.x[1].data(), a.body.x[2].data(), a.body.size(), s.x.data(), s.y.data(), s.z.data(),
-                                 static_cast<std::int64_t>(s.size()), 0.6 * a.forces.largest_spacing + s.coarsest, horizon, w.z_low, w.period);
-            });
+            SolidPart<R>& b = w.solids[c.b];
+            r = wall_contact(a.body, b.surface, options, w.z_low, w.period, a.forces);
+            add(r, a.body.name, b.body.name);
+            places_a = places(a.body);
+            places_b = places(b.surface);
+            range = 0.6 * a.forces.largest_spacing + b.surface.coarsest;
         } else {
             SolidPart<R>&a = w.solids[c.a], &b = w.solids[c.b];
-            const ContactReport r = surface_contact(a.surface, b.surface, options, w.z_low, w.period);
+            r = surface_contact(a.surface, b.surface, options, w.z_low, w.period);
             add(r, a.body.name, b.body.name);
-            look_ahead(r, [&] {
-                return clearance(a.surface.x.data(), a.surface.y.data(), a.surface.z.data(), static_cast<std::int64_t>(a.surface.size()), b.surface.x.data(),
-                                 b.surface.y.data(), b.surface.z.data(), static_cast<std::int64_t>(b.surface.size()), std::max(a.surface.coarsest, b.surface.coarsest), horizon,
-                                 w.z_low, w.period);
-            });
+            places_a = places(a.surface);
+            places_b = places(b.surface);
+            range = std::max(a.surface.coarsest, b.surface.coarsest);
         }
+        // after a pass in which nothing touched: how far can the two move before something does?
+        if (r.touching > 0 || --c.patience > 0) continue;
+        constexpr double horizon = 0.5;  // mm
+        c.clear = clearance(places_a, places_b, range, horizon, w.z_low, w.period);
+        c.patience = c.clear > 0 ? 0 : 16;
     }
     // What comes from here on comes from outside, and its impulse is booked; contact has cancelled, but for what came through mirrors.
     const bool mirrored = std::any_of(w.fluids.begin(), w.fluids.end(), [](const FluidPart& f) { return !f.body.mirrors.empty(); });

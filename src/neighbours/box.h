@@ -6,9 +6,9 @@
 namespace brisance {
 
 /// The box around some points, mm; without points min > max.
-struct Box {
+struct PointBox {
     double min[3] = {1e300, 1e300, 1e300}, max[3] = {-1e300, -1e300, -1e300};
-    BRISANCE_HD Box& operator+=(const Box& o) {
+    BRISANCE_HD PointBox& operator+=(const PointBox& o) {
         for (int a = 0; a < 3; ++a) {
             min[a] = o.min[a] < min[a] ? o.min[a] : min[a];
             max[a] = o.max[a] > max[a] ? o.max[a] : max[a];
@@ -20,9 +20,9 @@ struct Box {
         return x > min[0] - margin && x < max[0] + margin && y > min[1] - margin && y < max[1] + margin;
     }
 };
-BRISANCE_HD inline Box box_of(double x, double y, double z) { return {{x, y, z}, {x, y, z}}; }
-inline Box box_of(const double* x, const double* y, const double* z, std::int64_t n) {
-    return exec::launch_sum(n, Box{}, BRISANCE_KERNEL(std::int64_t i) { return box_of(x[i], y[i], z[i]); });
+BRISANCE_HD inline PointBox box_of(double x, double y, double z) { return {{x, y, z}, {x, y, z}}; }
+inline PointBox box_of(const double* x, const double* y, const double* z, std::int64_t n) {
+    return exec::launch_sum(n, PointBox{}, BRISANCE_KERNEL(std::int64_t i) { return box_of(x[i], y[i], z[i]); });
 }
 
 }  // namespace brisance

@@ -20,7 +20,7 @@ struct Raw {
 
 struct BoxKernel {
     Raw raw;
-    BRISANCE_HD Box operator()(std::int64_t k) const {
+    BRISANCE_HD PointBox operator()(std::int64_t k) const {
         const std::int32_t i = raw.point(k);
         return box_of(raw.x[i], raw.y[i], raw.z[i] + raw.shifted(k));
     }
@@ -73,7 +73,7 @@ void CellGrid::build(const double* x, const double* y, const double* z, std::int
         raw.index = raw_index_.data();
         raw.shift = raw_shift_.data();
     }
-    const Box box = exec::launch_sum(entries, Box{}, BoxKernel{raw});
+    const PointBox box = exec::launch_sum(entries, PointBox{}, BoxKernel{raw});
     CellGridView& g = view_;
     g.entries = entries;
     // A particle flung far out must not cost memory: cells grow until there are at most some per entry.

@@ -190,7 +190,7 @@ TEST(Contact, ClearanceIsABound) {
                     nearest = std::min(nearest, std::sqrt(sq(a[0][i] - b[0][j]) + sq(a[1][i] - b[1][j]) + dz * dz));
                 }
         const double range = 0.3, horizon = 0.8;
-        const double found = clearance(a[0].data(), a[1].data(), a[2].data(), 40, b[0].data(), b[1].data(), b[2].data(), 40, range, horizon, 0, period);
+        const double found = clearance({a[0].data(), a[1].data(), a[2].data(), 40}, {b[0].data(), b[1].data(), b[2].data(), 40}, range, horizon, 0, period);
         EXPECT_LE(found, std::clamp(nearest - range, 0.0, horizon) + 1e-12);
         // told in whole cells, of which five make range + horizon, and along the axes
         EXPECT_GE(found, std::min(nearest / std::sqrt(3.0) - range - 2 * (range + horizon) / 5, horizon - 1e-12));

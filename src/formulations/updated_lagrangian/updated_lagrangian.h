@@ -86,6 +86,7 @@ struct Detonator {
     double from[3] = {0, 0, 0}, to[3] = {0, 0, 0};
     double time = 0;
 };
+/// When the detonation reaches a place, us; 1e300 without detonators. `speed`: D, mm/us.
 double lighting_time(const Vec3<double>& at, const std::vector<Detonator>& detonators, double speed);
 void light(FluidBody& body, const std::vector<Detonator>& detonators);
 
