@@ -10,7 +10,7 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
+#if defined(__AVX2__) && !defined(BRISANCE_CUDA)
 #include <immintrin.h>
 #endif
 
@@ -161,26 +161,37 @@ template <class V, int m> BRISANCE_INLINE void hsums(const V (&x)[m], ScalarOf<V
 #endif
 }
 
-/// A comparison of packs: the lanes of the one at `first` that lie before `last`.
-template <class V> BRISANCE_INLINE auto lanes_before(std::int64_t first, std::int64_t last) {
-    using R = ScalarOf<V>;
-    alignas(64) constexpr R number[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    return static_cast<R>(first) + load<V>(number) < static_cast<R>(last);
+/// 0, 1, 2, ...
+template <class V> BRISANCE_INLINE V lane_numbers() {
+    alignas(64) constexpr ScalarOf<V> number[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return load<V>(number);
 }
+/// A comparison of packs: the lanes of the one at `first` that lie before `last`.
+template <class V> BRISANCE_INLINE auto lanes_before(std::int64_t first, std::int64_t last) { return lane_numbers<V>() < static_cast<ScalarOf<V>>(last - first); }
+/// The same: all lanes but the one at `one`.
+template <class V> BRISANCE_INLINE auto other_lanes(std::int64_t first, std::int64_t one) { return lane_numbers<V>() != static_cast<ScalarOf<V>>(one - first); }
 
-/// Whether a comparison of two packs holds in any lane.
-template <class Mask> BRISANCE_INLINE bool any_lane(Mask on) {
+/// Bit l: whether a comparison of two packs holds in lane l.
+template <class Mask> BRISANCE_INLINE unsigned lane_bits(Mask on) {
     if constexpr (sizeof(Mask) <= sizeof(std::int64_t)) {
         return on != 0;
     } else {
+        [[maybe_unused]] constexpr bool doubles = sizeof(on[0]) == sizeof(double);
 #if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
-        if constexpr (sizeof(Mask) == 64) return _mm512_test_epi64_mask((__m512i)on, (__m512i)on) != 0;
+        if constexpr (doubles) return _mm512_test_epi64_mask((__m512i)on, (__m512i)on);
+        else return _mm512_test_epi32_mask((__m512i)on, (__m512i)on);
+#elif defined(__AVX2__) && !defined(BRISANCE_CUDA)
+        if constexpr (doubles) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)on));
+        else return static_cast<unsigned>(_mm256_movemask_ps((__m256)on));
+#else
+        unsigned bits = 0;
+        for (std::size_t l = 0; l < sizeof(on) / sizeof(on[0]); ++l) bits |= static_cast<unsigned>(on[l] != 0) << l;
+        return bits;
 #endif
-        bool found = false;
-        for (std::size_t l = 0; l < sizeof(on) / sizeof(on[0]); ++l) found |= on[l] != 0;
-        return found;
     }
 }
+/// Whether it holds in any lane.
+template <class Mask> BRISANCE_INLINE bool any_lane(Mask on) { return lane_bits(on) != 0; }
 
 /// Records of eight numbers, one cache line each: out[c] gets component c of the records at first[l], one per lane.
 template <class V> BRISANCE_INLINE void load_records(const ScalarOf<V>* records, const std::int32_t* first, V out[8]) {
@@ -201,27 +212,42 @@ template <class V> BRISANCE_INLINE void load_records(const ScalarOf<V>* records,
     }
 }
 
-/// Writes first + l for each lane l where `on` holds (a comparison of two packs), one after the other; returns how many. May overwrite as
-/// many places as a pack has lanes.
+namespace detail {
+/// Row m: the numbers of the bits that are set in m, one after the other.
+struct BitsSet {
+    std::uint8_t of[256][8];
+};
+consteval BitsSet bits_set() {
+    BitsSet table{};
+    for (int m = 0; m < 256; ++m)
+        for (int bit = 0, n = 0; bit < 8; ++bit)
+            if (m >> bit & 1) table.of[m][n++] = static_cast<std::uint8_t>(bit);
+    return table;
+}
+}  // namespace detail
+/// Writes first + l for each lane l where `on` holds (a comparison of two packs of floats), one after the other; returns how many. May
+/// overwrite as many places as a pack has lanes.
 template <class V, class Mask> BRISANCE_INLINE int list_lanes(std::int32_t* out, std::int32_t first, Mask on) {
+    static_assert(sizeof(ScalarOf<V>) == sizeof(std::int32_t));
+    const unsigned bits = lane_bits(on);
     if constexpr (lanes_of<V> == 1) {
         *out = first;
-        return on ? 1 : 0;
+        return static_cast<int>(bits);
     } else {
 #if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
-        if constexpr (sizeof(V) == 64 && lanes_of<V> == 8) {
-            const __mmask8 mask = _mm512_test_epi64_mask((__m512i)on, (__m512i)on);
-            const __m256i number = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-            _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_maskz_compress_epi32(mask, number));
-            return __builtin_popcount(mask);
+        const __m512i number = _mm512_add_epi32(_mm512_set1_epi32(first), _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), number));
+#elif defined(__AVX2__) && !defined(BRISANCE_CUDA)
+        static constexpr detail::BitsSet table = detail::bits_set();
+        const __m128i row = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(table.of[bits]));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_cvtepu8_epi32(row)));
+#else
+        for (int l = 0, n = 0; l < lanes_of<V>; ++l) {
+            out[n] = first + l;
+            n += static_cast<int>(bits >> l & 1);
         }
 #endif
-        int n = 0;
-        for (int l = 0; l < lanes_of<V>; ++l) {
-            out[n] = first + l;
-            n += on[l] != 0;
-        }
-        return n;
+        return __builtin_popcount(bits);
     }
 }
 

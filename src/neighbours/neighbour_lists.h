@@ -29,44 +29,54 @@ struct NeighbourListsView {
     }
 };
 
-/// Entries of a grid with their supports, in its order, with a pack behind the last that is out of everybody's reach.
+/// Entries of a grid with their supports, in its order, with a pack of floats behind the last that is out of everybody's reach.
 struct Supports {
-    const double *x, *y, *z, *h;
+    const float *x, *y, *z, *h;   ///< from the grid's corner; h: half of the support
+    const double* records;        ///< eight numbers an entry, x y z h first
     double h_max;
+
+    /// By how much a pair may be farther apart than these floats say: each place is off by 2^-24 of the grid, sums and products by as much of themselves.
+    float slack(const CellGridView& grid) const {
+        return static_cast<float>(0x1p-22 * (grid.cell * std::max({grid.n[0], grid.n[1], grid.n[2]}) + 4 * h_max));
+    }
 };
 
 /// Lists the neighbours of an entry that is wanted, and says how many. A list that is full goes on counting.
+/// In single precision, which takes twice as many at once: what it lists beyond the support by rounding has no weight.
 template <class Wanted>
 struct SearchKernel {
     CellGridView grid;
     Supports s;
     NeighbourListsView v;
     Wanted wanted;
+    float slack;
     BRISANCE_HD double operator()(std::int64_t i) const {
-        using V = Pack<double>;
-        constexpr int width = NeighbourListsView::width;
+        using V = Pack<float>;
+        constexpr int width = lanes<float>;
         v.count[i] = 0;
         if (!wanted(i)) return 0;
-        const double x = s.x[i], y = s.y[i], z = s.z[i], h = s.h[i];
+        const double* const at = s.records + 8 * i;
+        const double reach = std::min(at[3] + s.h_max, 2 * s.h_max) + static_cast<double>(slack);
+        const float x = s.x[i], y = s.y[i], z = s.z[i], h = s.h[i] + slack;
         const std::int64_t full = v.capacity - 2 * width;
         std::int64_t end = 0;
-        grid.ranges(x, y, z, h + s.h_max < 2 * s.h_max ? h + s.h_max : 2 * s.h_max, [&](std::int64_t first, std::int64_t last) {
+        grid.ranges(at[0], at[1], at[2], reach, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
-                const V dx = x - load<V>(s.x + q), dy = y - load<V>(s.y + q), dz = z - load<V>(s.z + q), reach = h + load<V>(s.h + q);
+                const V dx = x - load<V>(s.x + q), dy = y - load<V>(s.y + q), dz = z - load<V>(s.z + q), apart = h + load<V>(s.h + q);
                 const V r2 = dx * dx + dy * dy + dz * dz;
-                end += list_lanes<V>(v.at(i, end < full ? end : full), static_cast<std::int32_t>(q), (r2 < reach * reach) & (r2 > 1e-24) & lanes_before<V>(q, last));
+                end += list_lanes<V>(v.at(i, end < full ? end : full), static_cast<std::int32_t>(q), (r2 < apart * apart) & lanes_before<V>(q, last) & other_lanes<V>(q, i));
             }
         });
         if (end > full) return static_cast<double>(end);
         v.count[i] = static_cast<std::int32_t>(end);
-        for (std::int64_t n = end; n % width != 0; ++n) *v.at(i, n) = static_cast<std::int32_t>(v.entries);
+        for (std::int64_t n = end; n % v.width != 0; ++n) *v.at(i, n) = static_cast<std::int32_t>(v.entries);
         return static_cast<double>(end);
     }
 };
 
 class NeighbourLists {
 public:
-    /// For each entry i of the grid with wanted(i), the entries j with 0 < |x_i - x_j| < h_i + h_j.
+    /// For each entry i of the grid with wanted(i), the other entries j with |x_i - x_j| < h_i + h_j, and few that are farther by rounding.
     template <class Wanted>
     void build(const CellGridView& grid, const Supports& s, const Wanted& wanted) {
         NeighbourListsView& v = view_;
@@ -74,11 +84,11 @@ public:
         make_room(count_, static_cast<std::size_t>(v.entries));
         v.count = count_.data();
         for (;;) {
-            make_room(lists_, static_cast<std::size_t>(v.entries * v.capacity + v.width));
+            make_room(lists_, static_cast<std::size_t>(v.entries * v.capacity + lanes<float>));
             v.lists = lists_.data();
-            const auto most = static_cast<std::int64_t>(exec::launch_max(v.entries, 0.0, SearchKernel<Wanted>{grid, s, v, wanted}));
-            if (most + 2 * v.width <= v.capacity) return;
-            v.capacity = (most + most / 8 + 3 * v.width) / v.width * v.width;
+            const auto most = static_cast<std::int64_t>(exec::launch_max(v.entries, 0.0, SearchKernel<Wanted>{grid, s, v, wanted, s.slack(grid)}));
+            if (most + 2 * lanes<float> <= v.capacity) return;
+            v.capacity = (most + most / 8 + 3 * lanes<float>) / v.width * v.width;
         }
     }
     const NeighbourListsView& view() const { return view_; }

@@ -124,16 +124,16 @@ BRISANCE_INLINE Pairs<V> pairs(const double* me, const double* records, const st
     p.h = 0.5 * (me[3] + r[3]);
     p.volume = r[4];
     p.r2 = dot(p.d, p.d);
-    p.r = vsqrt(p.r2);
+    p.r = vsqrt(vmax(p.r2, broadcast<V>(1e-24)));  // two in one place push nowhere
     return p;
 }
 
-/// Places, supports and motion of the entries, and a pack behind the last: out of everybody's reach, and nothing there.
+/// Places, supports and motion of the entries, and a pack of floats behind the last: out of everybody's reach, and nothing there.
 struct MotionKernel {
     FluidView b;
     FluidWork w;
     BRISANCE_HD void operator()(std::int64_t k) const {
-        double record[8] = {1e50, 0, 0, 1, 0, 0, 0, 0};
+        double record[8] = {1e30, 0, 0, 1, 0, 0, 0, 0};
         if (k < w.grid.entries) {
             const std::int32_t e = w.grid.index[k];
             const std::int64_t i = w.particle(k);
@@ -144,10 +144,9 @@ struct MotionKernel {
             const double unit[8] = {1, 1, 0, 0, 0, 0, 0, 0};
             for (int c = 0; c < 8; ++c) w.response[8 * k + c] = unit[c];
         }
-        w.x[k] = record[0];
-        w.y[k] = record[1];
-        w.z[k] = record[2];
-        w.h[k] = record[3];
+        float* const place[3] = {w.x, w.y, w.z};
+        for (int a = 0; a < 3; ++a) place[a][k] = static_cast<float>(record[a] - w.grid.min[a]);
+        w.h[k] = static_cast<float>(record[3]);
         for (int c = 0; c < 8; ++c) w.motion[8 * k + c] = record[c];
     }
 };
@@ -288,7 +287,7 @@ FluidWork FluidSolver::sort(const FluidBody& b) {
     // Cells of half the largest support: few candidates per particle, and not many cells to look into.
     points_.build(b, 2 * h_max);
     grid_.build(points_.place(0), points_.place(1), points_.place(2), points_.size(), std::max(h_max, 1e-9), 2 * h_max, b.z_low, b.period);
-    const auto padded = static_cast<std::size_t>(grid_.entries() + lanes<double>), n = static_cast<std::size_t>(body.n);
+    const auto padded = static_cast<std::size_t>(grid_.entries() + lanes<float>), n = static_cast<std::size_t>(body.n);
     for (auto* a : {&x_, &y_, &z_, &h_}) make_room(*a, padded);
     for (auto* a : {&motion_, &response_}) make_room(*a, 8 * padded);
     for (auto* a : {&mu_, &q_}) make_room(*a, n);
@@ -298,7 +297,7 @@ FluidWork FluidSolver::sort(const FluidBody& b) {
     }
     FluidWork w{grid_.view(), points_.view(), {}, x_.data(), y_.data(), z_.data(), h_.data(), motion_.data(), response_.data(), correction_.data(), mu_.data(), q_.data(), body.n};
     exec::launch(static_cast<std::int64_t>(padded), MotionKernel{body, w}, 1024);
-    neighbours_.build(w.grid, {w.x, w.y, w.z, w.h, h_max}, OwnEntries{w});
+    neighbours_.build(w.grid, {w.x, w.y, w.z, w.h, w.motion, h_max}, OwnEntries{w});
     w.neighbours = neighbours_.view();
     return w;
 }

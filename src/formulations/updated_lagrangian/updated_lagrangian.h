@@ -26,7 +26,7 @@ struct FluidWork {
     CellGridView grid;
     MirroredView points;
     NeighbourListsView neighbours;
-    double *x, *y, *z, *h;         ///< of the entries, h for the search
+    float *x, *y, *z, *h;          ///< of the entries, from the grid's corner: for the search
     double *motion, *response;     ///< records of the entries: x y z h, m/rho, v; and: rho, c, (P + q) L
     Sym3<double>* correction;      ///< L of the particles
     double *mu, *q;                ///< of the particles: largest |mu|, and bulk viscosity, GPa
@@ -75,7 +75,8 @@ private:
     CellGrid grid_;
     Mirrored points_;
     NeighbourLists neighbours_;
-    Array<double> x_, y_, z_, h_, motion_, response_;
+    Array<float> x_, y_, z_, h_;
+    Array<double> motion_, response_;
     Array<Sym3<double>> correction_;
     Array<double> mu_, q_;
 };
