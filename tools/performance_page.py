@@ -121,7 +121,7 @@ def full():
 def stretch():
     f = full()
     return [f"`cases/blast/air_copper.toml --preset full` from the lighting to {f['end']:.2f} µs: {f['particles']:,} particles set up in {f['setup']:.0f} s, {f['steps']} long steps, about {f['short']:.0f} short ones, in {f['measured'] / 60:.1f} min on "
-            f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, whose rate of fluids is that of this stretch, foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
+            f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, which measures the machine for a moment, foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
             f"In the same proportion the 150 µs, which `check` puts at {f['whole_foretold'] / 3600:.1f} h, take {f['whole'] / 3600:.1f}. The fluids decide: a million particles; for the 22 µs of the burn "
             "the charge holds the step, then the thin sheath."]
 
@@ -141,13 +141,14 @@ def page():
         "## What limits each loop", "",
         "* **Rock and copper** are bound by loads. A neighbour of rock costs 44 operations and 19 loads of a whole register, nearly all from the first two caches and most of them astride two cache lines, since a",
         "  neighbour's column begins anywhere in a line. Two loads a cycle, or one that straddles: that is where the time goes, not the multiply-adds. Single precision takes twice the particles in a load.",
-        "* **Water** searches its neighbours anew each step: 37 % of its instructions, the two passes over the neighbours 22 and 34 % (`build/portable/loops fluid` under callgrind, as `tools/instructions.py` runs it); a record of",
+        "* **Water** searches its neighbours anew each step: 26 % of its instructions, the two passes over the neighbours 27 and 39 % (`build/portable/loops fluid` under callgrind, as `tools/instructions.py` runs it); a record of",
         "  eight numbers is gathered for each neighbour in both passes and turned in registers.",
         "  Cells are walked in strips, so that what a strip's neighbours need stays in the second cache.",
         "* **The second thread** shares with the first whatever the machine lets two threads share: compare the arithmetic of one thread with that of both before blaming the loop:",
         f"  here {rows['arithmetic'][0]['rate'] / 1e9:.0f} and {top['arithmetic'] / 1e9:.0f} GFLOP/s.",
         "* **Laws**: JH-2 is 9 % of the instructions of a loop of rock that fails (`build/portable/loops rock`). **Contact** looks only at pairs of parts that can have met since it looked last, sorts fluids by size, and asks",
-        "  a map of rings of cells first where many particles look at few cells.", "",
+        "  a map of rings of cells first where many particles look at few cells.",
+        "* **Slices**: a pack holds particles of one column, 8 in double and 16 in single (half of that without AVX-512). Eight layers fill it; a ninth costs as much as eight, and single precision gains nothing in eight.", "",
         "## Everything else", "", *rest(rows), "",
         "## Goals", "", *goals(rows), "",
         "## The preset full", "", *stretch(), "", "## Size", "", f"Rock in double, {read('rock_1e6.json')['rows'][-1]['threads']} threads.", "", *sizes(), ""]) + "\n"

@@ -258,9 +258,10 @@ Estimate estimate(const Case& c) {
         part.particles = columns * layers;
         const double real = c.precision == Precision::single ? 4 : 8, width = 64 / real;
         const double pad = largest_offset(p.smoothing);
-        const double slots = solid ? columns * (std::ceil(layers / width) * width + std::ceil(2 * pad / width) * width) : part.particles;
+        part.lanes = solid ? columns * std::ceil(layers / width) * width : part.particles;
+        const double slots = solid ? part.lanes + columns * std::ceil(2 * pad / width) * width : part.particles;
         const double state = m.strength ? static_cast<double>(m.strength->state().size()) : 0;
-        const double per_slot = solid ? real * (37 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : 8.0 * (3 * 5 + 13 + 14) + 64;
+        const double per_slot = solid ? real * (31 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : 8.0 * (3 * 5 + 13 + 14) + 64;
         part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
         part.dt = solid ? c.step.courant_solid * stencil_tau(p.smoothing, p.zero_energy) * std::min(p.spacing, p.spacing_z) / m.sound_speed()
                         : c.step.courant_fluid * p.smoothing * p.spacing /
@@ -282,12 +283,10 @@ Estimate estimate(const Case& c) {
     for (const Estimate::Part& p : e.parts)
         if (!p.burns || e.parts.size() == 1) after = std::min(after, p.dt);
     e.steps = burning / while_burning + (c.until - burning) / after;
-    // Particle-steps per second of one core, contact among what fluids cost; measured with cases/blast, solids in the preset quick, fluids in full.
-    constexpr double solid_rate = 3.9e6, fluid_rate = 0.27e6;
     for (const Estimate::Part& p : e.parts) {
         const auto long_steps = [&](double time, double fast) { return time / std::clamp(p.dt, fast, most_short_steps * fast); };
-        const bool solid = p.formulation == "total_lagrangian";
-        e.core_seconds += p.particles * (solid ? (long_steps(burning, while_burning) + long_steps(c.until - burning, after)) / solid_rate : e.steps / fluid_rate);
+        if (p.formulation == "total_lagrangian") e.solid_steps += p.lanes * (long_steps(burning, while_burning) + long_steps(c.until - burning, after));
+        else e.fluid_steps += p.particles * e.steps;
     }
     return e;
 }

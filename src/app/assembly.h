@@ -16,6 +16,7 @@ struct Estimate {
         std::string name, material, formulation;
         double spacing = 0, spacing_far = 0, spacing_z = 0, mass = 0;   ///< mm, mg
         double particles = 0, bytes = 0, dt = 0;                        ///< dt: stable step at rest, us
+        double lanes = 0;                                               ///< particles, and what fills the packs at the ends of columns
         bool burns = false;
     };
     std::vector<Part> parts;
@@ -23,7 +24,7 @@ struct Estimate {
     double dt = 0;            ///< the first step, us: a charge that burns is the fastest
     double burn = 0;          ///< us, when the last of the charge is lit
     double steps = 0;         ///< short steps
-    double core_seconds = 0;  ///< solids take longer steps than fluids (integrate/step.cpp)
+    double solid_steps = 0, fluid_steps = 0;  ///< particle-steps; solids take longer steps (integrate/step.cpp), and their particles are counted with the lanes beside them
 };
 
 /// The z-range of a slice, or of the whole case.

@@ -4,6 +4,7 @@
 #include "app/assembly.h"
 #include "app/ceilings.h"
 #include "app/commands.h"
+#include "app/loop_speed.h"
 #include "app/recorder.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -50,57 +51,14 @@ struct Row {
     std::function<Measured(const BenchOptions&)> measure;
 };
 
-CaseOptions bench_case(const std::string& file) {
-    CaseOptions o;
-    o.file = (std::filesystem::path(BRISANCE_SOURCE_DIR) / "cases" / file).string();
-    return o;
-}
-
-/// Steps of a case with one part, after some to warm up.
-template <class R>
-Measured loop(const Case& c) {
-    const double before = resident_memory();
-    World<R> w = assemble<R>(c, [](const std::string&) {});
-    begin(w);
-    Measured m;
-    for (const auto& s : w.solids) {
-        m.particles += static_cast<double>(s.body.layout.particles);
-        m.neighbours = s.pairs.bonds_per_particle;
-    }
-    for (const FluidPart& f : w.fluids) {
-        m.particles += static_cast<double>(f.body.size());
-        m.neighbours = f.solver.neighbours_per_particle();
-    }
-    for (int k = 0; k < 5; ++k) step(w, c.until);
-    m.bytes = (resident_memory() - before) / m.particles;
-    double spent = 0, steps = 0;
-    while (spent < 3 && w.time < c.until) {
-        spent += seconds_of([&] { step(w, c.until); });
-        ++steps;
-    }
-    m.rate = steps * m.particles / spent;
-    return m;
-}
-
-/// A case of cases/bench with as many particles as asked; `edge` of its cube, mm.
-CaseOptions sized(const std::string& file, const BenchOptions& b, double edge) {
-    CaseOptions o = bench_case(file);
-    if (b.particles > 0) {
-        const std::string part = std::filesystem::path(file).stem().string();
-        o.settings.push_back(fmt::format("{}.spacing=\"{:.6g} mm\"", part, edge / std::cbrt(b.particles)));
-    }
-    return o;
-}
-
 Measured loop(const std::string& file, const BenchOptions& b, Precision precision, double edge) {
-    const Case c = open_case(sized(file, b, edge));
-    require_memory(c, estimate(c));
-    return precision == Precision::single ? loop<float>(c) : loop<double>(c);
+    const LoopSpeed l = loop_speed(file, b.particles, precision, edge, 3);
+    return {l.rate, l.particles, l.neighbours, l.bytes};
 }
 
 /// The blast from lighting to 12 us, when the pulse is in the rock: particle-steps of all parts, and the share of contact.
 Measured blast(const BenchOptions&) {
-    CaseOptions o = bench_case("blast/air_copper.toml");
+    CaseOptions o = shipped_case("blast/air_copper.toml");
     o.preset = "quick";
     const Case c = open_case(o);
     World<double> w = assemble<double>(c, [](const std::string&) {});
@@ -117,7 +75,7 @@ Measured blast(const BenchOptions&) {
 
 /// A snapshot of the rock, with the row of the audit.
 Measured output(const BenchOptions&) {
-    CaseOptions o = bench_case("bench/rock.toml");
+    CaseOptions o = shipped_case("bench/rock.toml");
     o.settings.emplace_back("output.snapshots=[\"0 us\"]");
     const Case c = open_case(o);
     World<double> w = assemble<double>(c, [](const std::string&) {});
@@ -137,7 +95,7 @@ Measured output(const BenchOptions&) {
 
 /// Placement of the rock, its columns' pairs included.
 Measured placement(const BenchOptions& b) {
-    const Case c = open_case(sized("bench/rock.toml", b, 24));
+    const Case c = open_case(sized_case("bench/rock.toml", b.particles, 24));
     Measured m;
     const double spent = seconds_of([&] { m.particles = static_cast<double>(assemble<double>(c, [](const std::string&) {}).solids[0].body.layout.particles); });
     m.rate = m.particles / spent;

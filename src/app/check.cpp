@@ -2,6 +2,7 @@
 // brisance check: what a case will need. Runs nothing.
 #include "app/assembly.h"
 #include "app/commands.h"
+#include "app/loop_speed.h"
 #include "base/memory.h"
 #include "exec/device.h"
 
@@ -11,11 +12,26 @@
 
 namespace brisance {
 
+namespace {
+
+/// How long a case will take here, s: this machine's speed is measured for a moment.
+double foretell(const Case& c, const Estimate& e) {
+    // What a blast makes of it. Solids: what fails is dearer than what does not, and all of it is more than the caches hold. Fluids: contact is
+    // counted among what they cost. Both of cases/blast, the presets quick and full (docs/performance.md).
+    constexpr double solid_share = 0.75, fluid_share = 0.5;
+    double seconds = 0;
+    if (e.solid_steps > 0) seconds += e.solid_steps / (solid_share * loop_speed("bench/rock.toml", 1e5, c.precision, 24, 0.3).rate);
+    if (e.fluid_steps > 0) seconds += e.fluid_steps / (fluid_share * loop_speed("bench/water.toml", 3e4, Precision::double_, 12, 0.3).rate);
+    return seconds;
+}
+
+}  // namespace
+
 int check_command(const CaseOptions& o) {
     const Case c = open_case(o);
     const Estimate e = estimate(c);
     const double memory = available_memory();
-    const double seconds = e.core_seconds / exec::threads();
+    const double seconds = foretell(c, e);
     if (o.json) {
         std::string parts;
         for (const Estimate::Part& p : e.parts)

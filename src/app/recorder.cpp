@@ -168,17 +168,16 @@ Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run,
             double best = 1e300;
             Gauge gauge{g.name, s, 0, 0, CsvFile(run.gauges() / (g.name + ".csv"), gauge_columns, go_on)};
             const double z = c.slice ? c.slice->z : g.at.z;
-            for (std::size_t i = 0; i < b.layout.columns.size(); ++i) {
-                const Column& column = b.layout.columns[i];
+            for (const Column& column : b.layout.columns) {
                 const int k = nearest_layer(b.layout, column, z);
                 const double dx = column.x - g.at.x, dy = column.y - g.at.y, dz = column.z0 + k * b.layout.dz - z;
                 const double d = dx * dx + dy * dy + dz * dz;
                 if (d < best && (b.layout.flags[static_cast<std::size_t>(column.start + k)] & slot_own)) {
                     best = d;
                     gauge.slot = column.start + k;
-                    gauge.column = i;
                 }
             }
+            while (b.layout.tiles[gauge.tile].base + b.layout.width <= gauge.slot) ++gauge.tile;
             gauges_.push_back(std::move(gauge));
         }
 }
@@ -354,9 +353,11 @@ void Recorder<R>::write_gauges(const World<R>& w) {
     for (Gauge& g : gauges_) {
         const SolidBody<R>& b = w.solids[g.solid].body;
         const auto i = static_cast<std::size_t>(g.slot);
-        const Column& c = b.layout.columns[g.column];
-        Sym3<double> s{static_cast<double>(b.s[0][i]), static_cast<double>(b.s[1][i]), static_cast<double>(b.s[2][i]),
-                       static_cast<double>(b.s[3][i]), static_cast<double>(b.s[4][i]), static_cast<double>(b.s[5][i])};
+        const Tile& tile = b.layout.tiles[g.tile];
+        const Column& c = b.layout.columns[static_cast<std::size_t>(tile.column)];
+        std::vector<Sym3<double>> of_tile(static_cast<std::size_t>(b.layout.width));
+        deviators(b, w.solids[g.solid].pairs, tile, of_tile.data());
+        const Sym3<double>& s = of_tile[static_cast<std::size_t>(g.slot - tile.base)];
         const Principal<double> p = principal(s);
         const double pressure = static_cast<double>(b.pressure[i]);
         const double k = static_cast<double>(g.slot - c.start);
@@ -396,26 +397,30 @@ void Recorder<R>::write_snapshot(const World<R>& w) {
     std::uint8_t number = 0;
     for (const auto& s : w.solids) {
         const SolidBody<R>& b = s.body;
-        for (std::size_t n = 0; n < b.layout.columns.size(); ++n) {
-            const Column& c = b.layout.columns[n];
-            for (int k = 0; k < c.layers; ++k) {
-                const auto i = static_cast<std::size_t>(c.start + k);
+        std::vector<Sym3<double>> deviator(static_cast<std::size_t>(b.layout.width));
+        for (const Tile& tile : b.layout.tiles) {
+            const Column& c = b.layout.columns[static_cast<std::size_t>(tile.column)];
+            deviators(b, s.pairs, tile, deviator.data());
+            for (std::size_t l = 0; l < deviator.size(); ++l) {
+                const auto i = static_cast<std::size_t>(tile.base) + l;
                 if (!(b.layout.flags[i] & slot_own)) continue;
+                const Sym3<double>& d = deviator[l];
+                const double k = static_cast<double>(static_cast<std::int64_t>(i) - c.start), p = static_cast<double>(b.pressure[i]);
                 points.push_back(static_cast<float>(c.x + static_cast<double>(b.u[0][i])));
                 points.push_back(static_cast<float>(c.y + static_cast<double>(b.u[1][i])));
                 points.push_back(static_cast<float>(c.z0 + k * b.layout.dz + static_cast<double>(b.u[2][i])));
                 std::get<std::vector<std::uint8_t>>(part.values).push_back(number);
-                std::get<std::vector<std::int32_t>>(column.values).push_back(static_cast<std::int32_t>(n));
+                std::get<std::vector<std::int32_t>>(column.values).push_back(tile.column);
                 std::get<std::vector<std::uint8_t>>(cause.values).push_back(cause_of(b, i, case_.analysis));
                 put(damage, b.damage(i));
-                put(pressure, b.pressure[i]);
+                put(pressure, p);
                 put(velocity, b.v[0][i], b.v[1][i], b.v[2][i]);
                 put(displacement, b.u[0][i], b.u[1][i], b.u[2][i]);
                 put(failure_time, b.failure_time[i]);
                 put(size, std::sqrt(c.area));
                 put(peak, b.peak_pressure[i]);
                 put(radial, b.peak_radial[i]);
-                put(stress, b.s[0][i] - b.pressure[i], b.s[1][i] - b.pressure[i], b.s[2][i] - b.pressure[i], b.s[3][i], b.s[4][i], b.s[5][i]);
+                put(stress, d.xx - p, d.yy - p, d.zz - p, d.xy, d.xz, d.yz);
                 put(density, b.material.density);
                 put(energy, static_cast<double>(b.energy[i]) / b.material.density);
             }

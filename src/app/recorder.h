@@ -53,7 +53,7 @@ private:
         std::string name;
         std::size_t solid = 0;
         std::int64_t slot = 0;
-        std::size_t column = 0;
+        std::size_t tile = 0;   ///< that holds the slot
         CsvFile file;
     };
     struct Section {

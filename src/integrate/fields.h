@@ -55,7 +55,6 @@ void each_field(World<R>& w, V&& visit) {
         columns(at + "viscous_force", b.viscous_force);
         columns(at + "R_sum", b.R_sum);
         columns(at + "T", b.T);
-        columns(at + "s", b.s);
         columns(at + "state", b.state);
         visit(at + "pressure", b.pressure);
         visit(at + "energy", b.energy);

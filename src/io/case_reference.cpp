@@ -156,7 +156,7 @@ Schema make_schema() {
         }},
         {.name = "slice", .heading = "[slice]", .meaning = "Plane strain. The z of gauges and sections gives way to that of the slice.", .keys = {
             quantity("z", dimension::length, "centre of the slab"),
-            {.name = "layers", .type = Type::integer, .meaning = "thickness in layers of spacing_z of `part`", .fallback = "8", .range = config::count},
+            {.name = "layers", .type = Type::integer, .meaning = "thickness in layers of spacing_z of `part`; fastest in multiples of 8, in single precision of 16", .fallback = "8", .range = config::count},
             {.name = "part", .type = Type::text, .meaning = "the part whose spacing_z counts"},
         }},
         {.name = "detonation", .heading = "[[detonation]]", .meaning = "", .keys = {

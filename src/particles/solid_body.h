@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // State of a total-Lagrangian part, one array per component, one slot per particle (particles/columns.h).
-// Times: u, R, T, s and the law's state are at t_n; v is at t_n-1/2 before the kick of step n and at t_n+1/2 after it.
+// Times: u, R, T and the law's state are at t_n; v is at t_n-1/2 before the kick of step n and at t_n+1/2 after it.
 #pragma once
 
 #include "laws/material.h"
@@ -41,8 +41,7 @@ struct SolidBody {
     // only with pairwise viscosity: velocity extrapolated to t_n, what extrapolates it, and the viscous force per volume
     std::array<Array<R>, 3> v_now, acceleration, viscous_force;
     std::array<Array<R>, 9> R_sum;  ///< sum w (u_j - u_i) (x) xi = (F - I) K, row-major
-    std::array<Array<R>, 9> T;      ///< P K^-1 - a (F - I), GPa: what the stress sum needs (formulations/total_lagrangian/stress.cpp)
-    std::array<Array<R>, 6> s;      ///< Cauchy deviator GPa, xx yy zz xy xz yz
+    std::array<Array<R>, 9> T;      ///< P K^-1 - a (F - I), GPa: what the stress sum needs, and whence the deviator (formulations/total_lagrangian/stress.cpp)
     Array<R> pressure;              ///< GPa
     Array<R> energy;                ///< internal energy per initial volume, GPa, exact to the kicks done so far
     Array<R> power;                 ///< P : dF/dt at t_n with the velocity of t_n-1/2, GPa/us
@@ -69,7 +68,7 @@ struct SolidBody {
 template <class R>
 struct SolidView {
     R *u[3], *v[3], *v_now[3], *acceleration[3], *viscous_force[3];
-    R *R_sum[9], *T[9], *s[6];
+    R *R_sum[9], *T[9];
     R *pressure, *energy, *power, *stiffness, *scale, *live, *opening;
     R* state[max_law_state];
     float *peak_pressure, *peak_radial, *sigma_1, *tau_max, *failure_time, *yield;
@@ -101,7 +100,6 @@ SolidView<R> view(const SolidBody<R>& constant) {
     take_pointers(s.viscous_force, b.viscous_force);
     take_pointers(s.R_sum, b.R_sum);
     take_pointers(s.T, b.T);
-    take_pointers(s.s, b.s);
     take_pointers(s.state, b.state);
     s.pressure = b.pressure.data();
     s.energy = b.energy.data();
@@ -139,7 +137,6 @@ void allocate(SolidBody<R>& b) {
             for (auto& a : *group) a.assign(n, R(0));
     for (auto& a : b.R_sum) a.assign(n, R(0));
     for (auto& a : b.T) a.assign(n, R(0));
-    for (auto& a : b.s) a.assign(n, R(0));
     for (auto* a : {&b.pressure, &b.energy, &b.power, &b.stiffness, &b.live}) a->assign(n, R(0));
     b.scale.assign(n, R(1));
     if (b.options.failure.fracture_energy > 0) b.opening.assign(n, R(0));

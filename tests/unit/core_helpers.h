@@ -199,6 +199,15 @@ private:
     double last_ = 0;
 };
 
+/// Cauchy deviators by slot, GPa.
+template <class R>
+std::vector<Sym3<double>> deviators(const SolidPart<R>& part) {
+    const Columns& layout = part.body.layout;
+    std::vector<Sym3<double>> s(static_cast<std::size_t>(layout.slots));
+    for (const Tile& t : layout.tiles) deviators(part.body, part.pairs, t, s.data() + t.base);
+    return s;
+}
+
 /// sum x (x) m v about the origin.
 template <class R>
 Vec3<double> angular_momentum(const SolidBody<R>& b) {
@@ -215,7 +224,7 @@ template <class R>
 void respond_to(SolidPart<R>& s, StressReport* report = nullptr) {
     SolidBody<R>& b = s.body;
     for (auto& a : b.R_sum) std::fill(a.begin(), a.end(), R(0));
-    for (auto& a : b.s) std::fill(a.begin(), a.end(), R(0));
+    for (auto& a : b.T) std::fill(a.begin(), a.end(), R(0));
     for (auto& a : b.v) std::fill(a.begin(), a.end(), R(0));
     std::fill(b.energy.begin(), b.energy.end(), R(b.material.eos->initial_energy()));
     std::fill(b.power.begin(), b.power.end(), R(0));

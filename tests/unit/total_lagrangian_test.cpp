@@ -33,17 +33,18 @@ SolidPart<R> rough_body(const SolidOptions& o, int n = 6, int layers = 7, bool p
 }
 
 /// K of every particle from the bonds that are there.
-std::vector<Sym3<double>> shape_matrices(const SolidPart<double>& s) {
+template <class R>
+std::vector<Sym3<double>> shape_matrices(const SolidPart<R>& s) {
     std::vector<Sym3<double>> all(s.body.live.size());
     for (std::size_t c = 0; c < s.body.layout.columns.size(); ++c)
         for (int k = 0; k < s.body.layout.columns[c].layers; ++k) {
             const std::int64_t slot = s.body.layout.columns[c].start + k;
             Sym3<double>& K = all[static_cast<std::size_t>(slot)];
             for (std::int64_t p = s.pairs.begin[c]; p < s.pairs.begin[c + 1]; ++p) {
-                const ColumnPair<double>& pair = s.pairs.pairs[static_cast<std::size_t>(p)];
+                const ColumnPair<R>& pair = s.pairs.pairs[static_cast<std::size_t>(p)];
                 for (int o = 0; o < pair.count; ++o) {
-                    const double w = s.pairs.w[static_cast<std::size_t>(pair.weights + o)] * s.body.live[static_cast<std::size_t>(slot + pair.shift + o)];
-                    const double x = pair.dx, y = pair.dy, z = pair.z_first + o * pair.dz;
+                    const R w = s.pairs.w[static_cast<std::size_t>(pair.weights + o)] * s.body.live[static_cast<std::size_t>(slot + pair.shift + o)];
+                    const double x = pair.dx, y = pair.dy, z = pair.z_first + static_cast<R>(o) * pair.dz;
                     K = {K.xx + w * x * x, K.yy + w * y * y, K.zz + w * z * z, K.xy + w * x * y, K.xz + w * x * z, K.yz + w * y * z};
                 }
             }
@@ -52,6 +53,16 @@ std::vector<Sym3<double>> shape_matrices(const SolidPart<double>& s) {
 }
 Mat3<double> matrix_of(const std::array<Array<double>, 9>& a, std::size_t i) { return {a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]}; }
 Mat3<double> times(const Mat3<double>& a, const Sym3<double>& b) { return a * b; }
+/// Gives a body at rest a stress.
+template <class R>
+void prestress(SolidPart<R>& s, const Sym3<double>& sigma) {
+    const std::vector<Sym3<double>> K = shape_matrices(s);
+    each(s.body, [&](std::size_t i, const Column&, Vec3<double>) {
+        const Mat3<double> t = Mat3<double>{sigma.xx, sigma.xy, sigma.xz, sigma.xy, sigma.yy, sigma.yz, sigma.xz, sigma.yz, sigma.zz} * inverse(K[i]);
+        const double of[9] = {t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz};
+        for (std::size_t n = 0; n < 9; ++n) s.body.T[n][i] = static_cast<R>(of[n]);
+    });
+}
 std::array<double, 9> entries(const Mat3<double>& m) { return {m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz}; }
 double distance(const Mat3<double>& a, const Mat3<double>& b) {
     double d = 0;
@@ -188,16 +199,15 @@ TEST(TotalLagrangian, QuadraticFieldsAreExactInsideALattice) {
 
 TEST(TotalLagrangian, UniformStressExertsNoForceInAClosedLattice) {
     SolidPart<double> s = closed(0.05, 8, 8, 8);
-    for (std::size_t k = 0; k < 6; ++k) {
-        const double stress_of[6] = {0.3, -0.1, -0.2, 0.07, -0.05, 0.11};
-        std::fill(s.body.s[k].begin(), s.body.s[k].end(), stress_of[k]);
-    }
+    const Sym3<double> deviator{0.3, -0.1, -0.2, 0.07, -0.05, 0.11};
+    prestress(s, deviator);
     stress(s.body, s.pairs, 0, 1, 0);
     kick(s.body, s.pairs, 1);
     double worst = 0;
+    const std::vector<Sym3<double>> now = deviators(s);
     each(s.body, [&](std::size_t i, const Column&, Vec3<double>) {
         for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(s.body.v[k][i]));
-        EXPECT_EQ(s.body.s[0][i], 0.3);
+        EXPECT_LT(law_test::norm(now[i] - deviator), 1e-15);
     });
     EXPECT_LT(worst, 1e-14);
 }
@@ -207,8 +217,7 @@ TEST(TotalLagrangian, RigidRotationTurnsTheStressAndNothingElse) {
         SolidPart<double> s = rough_body(options(0.05), 4, 5);
         SolidBody<double>& b = s.body;
         const Sym3<double> before{0.1, -0.05, -0.05, 0.02, -0.03, 0.04};  // GPa
-        const double start[6] = {before.xx, before.yy, before.zz, before.xy, before.xz, before.yz};
-        for (std::size_t k = 0; k < 6; ++k) std::fill(b.s[k].begin(), b.s[k].end(), start[k]);
+        prestress(s, before);
         stress(b, s.pairs, 0, 1, 0);
         const Vec3<double> axis = (1 / std::sqrt(14.0)) * Vec3<double>{1, 2, 3};
         Mat3<double> Q = identity;
@@ -224,9 +233,9 @@ TEST(TotalLagrangian, RigidRotationTurnsTheStressAndNothingElse) {
             if (n == 1) first = b.energy[static_cast<std::size_t>(b.layout.columns[0].start)];  // the jump into motion
             if (n != steps / 4 && n != steps) continue;
             const Sym3<double> want = law_test::rotated(Q, before);
+            const std::vector<Sym3<double>> have = deviators(s);
             each(b, [&](std::size_t i, const Column&, Vec3<double>) {
-                const Sym3<double> have{b.s[0][i], b.s[1][i], b.s[2][i], b.s[3][i], b.s[4][i], b.s[5][i]};
-                EXPECT_LT(law_test::norm(have - want), 2e-12 * law_test::norm(before)) << "after " << n << " of " << steps;
+                EXPECT_LT(law_test::norm(have[i] - want), 2e-12 * law_test::norm(before)) << "after " << n << " of " << steps;
                 EXPECT_LT(std::abs(b.pressure[i]), 1e-11);
                 EXPECT_NEAR(b.energy[i], first, 1e-14);
             });
@@ -237,6 +246,51 @@ TEST(TotalLagrangian, RigidRotationTurnsTheStressAndNothingElse) {
         }
         EXPECT_LT(std::abs(control_energy(b, s.pairs, 0)), 1e-12);
         EXPECT_EQ(report.torn, 0);
+    }
+}
+
+/// The deviator comes out of T and goes back into it in each pass.
+template <class R>
+double lost_at_rest(int passes) {
+    SolidPart<R> s = rough_body<R>(options(0.4), 5, 6);
+    const Sym3<double> start{0.1, -0.05, -0.05, 0.02, -0.03, 0.04};
+    prestress(s, start);
+    set_field(s.body, s.body.u, [](Vec3<double> x) { return Vec3<double>{0.05 * x.y, -0.02 * x.z, 0.03 * x.x}; });
+    stress(s.body, s.pairs, 0, 1, 1);
+    const std::vector<Sym3<double>> before = deviators(s);
+    for (int n = 0; n < passes; ++n) stress(s.body, s.pairs, 0, 1, 1);
+    const std::vector<Sym3<double>> after = deviators(s);
+    double worst = 0;
+    each(s.body, [&](std::size_t i, const Column&, Vec3<double>) { worst = std::max(worst, law_test::norm(after[i] - before[i]) / law_test::norm(before[i])); });
+    return worst;
+}
+
+TEST(TotalLagrangian, AtRestTheDeviatorStays) {
+    // A stiff control: a|F - I| = 2 GPa beside a stress of 1 GPa. In double the way there and back is off by 3e-16 each time. In single that
+    // would be 1e-7, and 1 % in the end, were it not carried over.
+    EXPECT_LT(lost_at_rest<double>(1000), 1e-12);
+    EXPECT_LT(lost_at_rest<float>(10), 1e-6);
+    EXPECT_LT(lost_at_rest<float>(20000), 1e-6);
+}
+
+TEST(TotalLagrangian, NeighboursOfATornParticleKeepTheirStress) {
+    SolidPart<double> s = rough_body(options(0.05), 5, 6);
+    SolidBody<double>& b = s.body;
+    prestress(s, {0.1, -0.05, -0.05, 0.02, -0.03, 0.04});
+    set_field(b, b.u, [](Vec3<double> x) { return Vec3<double>{0.02 * x.y, 0.01 * x.z, -0.03 * x.x + 0.01 * x.y}; });
+    stress(b, s.pairs, 0, 1, 1);
+    const std::vector<Sym3<double>> before = deviators(s);
+    const Column& middle = b.layout.columns[b.layout.columns.size() / 2];
+    const auto victim = static_cast<std::size_t>(middle.start + middle.layers / 2);
+    b.energy[victim] = 2e6;  // more than the guard lets pass
+    EXPECT_EQ(stress(b, s.pairs, 1, 1, 1).torn, 1);
+    for (int n = 0; n < 2; ++n) {
+        const std::vector<Sym3<double>> now = deviators(s);
+        each(b, [&](std::size_t i, const Column&, Vec3<double>) {
+            if (i == victim) EXPECT_EQ(law_test::norm(now[i]), 0);
+            else EXPECT_LT(law_test::norm(now[i] - before[i]), 1e-12 * law_test::norm(before[i])) << n;
+        });
+        EXPECT_EQ(stress(b, s.pairs, 2, 1, 1).torn, 0);  // the loss of a neighbour is no deformation
     }
 }
 

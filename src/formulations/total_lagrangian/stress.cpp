@@ -20,7 +20,7 @@ namespace {
 template <class V>
 struct Gathered {
     Mat3<V> r{};         // sum w (u_j - u_i) (x) xi
-    Sym3<V> k_inverse{};
+    Sym3<V> k{}, k_inverse{};
 };
 
 /// The sums of the particles in slots base, base + 1, ... of a column.
@@ -82,14 +82,22 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
         const V one = broadcast<V>(R(1)), zero{};
         const Sym3<V> safe{good ? K.xx : one, good ? K.yy : one, good ? K.zz : one, good ? K.xy : zero, good ? K.xz : zero, good ? K.yz : zero};
         const V on = good ? one : zero;
+        g.k = safe;
         g.k_inverse = scaled(inverse(safe), on);
         g.r = on * g.r;
     } else {
-        const double* k = pairs.k_inverse + 6 * c;
-        g.k_inverse = {broadcast<V>(R(k[0])), broadcast<V>(R(k[1])), broadcast<V>(R(k[2])),
-                       broadcast<V>(R(k[3])), broadcast<V>(R(k[4])), broadcast<V>(R(k[5]))};
+        const double* n = pairs.k_inverse + 6 * c;
+        const Sym3<double> k_inverse{n[0], n[1], n[2], n[3], n[4], n[5]}, k = inverse(k_inverse);
+        for (std::size_t a = 0; a < 6; ++a) {
+            component(g.k, a) = broadcast<V>(R(component(k, a)));
+            component(g.k_inverse, a) = broadcast<V>(R(component(k_inverse, a)));
+        }
     }
     return g;
+}
+template <class V, class R>
+BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& t) {
+    return t.masked ? gather<V, true>(b, pairs, t.base, t.column) : gather<V, false>(b, pairs, t.base, t.column);
 }
 
 template <class V, class R> BRISANCE_INLINE Mat3<V> load_matrix(R* const (&a)[9], std::int64_t i) {
@@ -114,6 +122,21 @@ template <class V> BRISANCE_INLINE Mat3<V> plus_identity(Mat3<V> m) {
     m.yy += R(1);
     m.zz += R(1);
     return m;
+}
+
+/// sigma = P F^T/J from P K^-1.
+template <class V> BRISANCE_INLINE Sym3<V> cauchy(const Mat3<V>& pk, const Sym3<V>& k, const Mat3<V>& f) {
+    return scaled(symmetric_product(pk * k, f), ScalarOf<V>(1) / det(f));
+}
+/// P K^-1, P = J sigma F^-T.
+template <class V> BRISANCE_INLINE Mat3<V> piola(const Sym3<V>& sigma, const Mat3<V>& cof, const Sym3<V>& k_inverse) { return (sigma * cof) * k_inverse; }
+/// The deviator of a stress. It is not kept: it is that of the stress in T, with the R_sum and the control's stiffness of the same instant.
+template <class V> BRISANCE_INLINE Sym3<V> deviator(Sym3<V> s) {
+    const V mean = ScalarOf<V>(1.0 / 3.0) * trace(s);
+    s.xx -= mean;
+    s.yy -= mean;
+    s.zz -= mean;
+    return s;
 }
 
 template <class V> BRISANCE_INLINE void set_lane(V& v, int l, ScalarOf<V> x) {
@@ -165,7 +188,7 @@ struct StressKernel {
 
     BRISANCE_HD StressSums operator()(std::int64_t n) const {
         const Tile tile = b.pack(n);
-        return tile.masked ? update(tile, gather<V, true>(b, pairs, tile.base, tile.column)) : update(tile, gather<V, false>(b, pairs, tile.base, tile.column));
+        return update(tile, gather<V>(b, pairs, tile));
     }
 
 private:
@@ -178,23 +201,28 @@ private:
         // kinematics
         const Mat3<V> r_old = load_matrix<V>(b.R_sum, i);
         const Mat3<V> h_old = r_old * g.k_inverse, h_new = g.r * g.k_inverse;  // F - I
-        const Mat3<V> f_new = plus_identity(h_new);
-        const Increment<V> step = increment(plus_identity(h_old), f_new);
+        const Mat3<V> f_old = plus_identity(h_old), f_new = plus_identity(h_new);
+        const Increment<V> step = increment(f_old, f_new);
         const Mat3<V> cof = cofactor(f_new);
         const V jacobian = f_new.xx * cof.xx + f_new.xy * cof.xy + f_new.xz * cof.xz;
         const V safe_j = vmax(jacobian, broadcast<V>(R(0.05)));
 
         // energy up to the last kick: the old stress worked over half of the drift before it and half of the one after
         const V a_old = load<V>(b.stiffness + i);
-        const Mat3<V> dr = g.r - r_old;
-        const V work = ddot(load_matrix<V>(b.T, i), dr) + a_old * ddot(h_old, dr);
+        const Mat3<V> dr = g.r - r_old, pk_old = load_matrix<V>(b.T, i) + a_old * h_old;
+        const V work = ddot(pk_old, dr);
         V energy = load<V>(b.energy + i) + R(0.5) * kick * (load<V>(b.power + i) + work / dt);
 
         // pressure and strength
         SolidPoint<V> p{};
         p.d = step.d;
-        p.s = rotated(step.rotation, Sym3<V>{load<V>(b.s[0] + i), load<V>(b.s[1] + i), load<V>(b.s[2] + i),
-                                             load<V>(b.s[3] + i), load<V>(b.s[4] + i), load<V>(b.s[5] + i)});
+        const Sym3<V> sigma_old = cauchy(pk_old, g.k, f_old);
+        p.s = rotated(step.rotation, deviator(sigma_old));
+        // What the way from T to the stress and back loses by rounding has a sign: in single precision a stress at rest would be off by 1 % after
+        // 10^5 steps. So it is carried over.
+        constexpr bool single = sizeof(R) == sizeof(float);
+        [[maybe_unused]] Mat3<V> lost;
+        if constexpr (single) lost = pk_old - piola(sigma_old, cofactor(f_old), g.k_inverse);
         p.dt = broadcast<V>(dt);
         p.scale = load<V>(b.scale + i);
         for (int k = 0; k < n_state; ++k) p.state[k] = load<V>(b.state[k] + i);
@@ -224,7 +252,8 @@ private:
         // stress and what the sums need
         const V total = p.pressure + q;
         const Sym3<V> sigma{p.s.xx - total, p.s.yy - total, p.s.zz - total, p.s.xy, p.s.xz, p.s.yz};
-        const Mat3<V> pk = (sigma * cof) * g.k_inverse;  // P K^-1, P = J sigma F^-T
+        Mat3<V> pk = piola(sigma, cof, g.k_inverse);
+        if constexpr (single) pk = pk + lost;
         const V k_on = alive ? one : zero;
         V a_keep = a0 * p.integrity * k_on;
         if constexpr (softens) {
@@ -250,12 +279,6 @@ private:
 
         store_matrix(b.R_sum, i, g.r);
         const auto keep = [&](R* a, V x) { store(a + i, (alive ? x : load<V>(a + i))); };
-        keep(b.s[0], p.s.xx);
-        keep(b.s[1], p.s.yy);
-        keep(b.s[2], p.s.zz);
-        keep(b.s[3], p.s.xy);
-        keep(b.s[4], p.s.xz);
-        keep(b.s[5], p.s.yz);
         keep(b.pressure, p.pressure);
         if constexpr (softens) keep(b.opening, opening);
         keep(b.energy, energy);
@@ -375,11 +398,13 @@ private:
 
 };
 
-/// Takes the newly torn particles out of the sums: their neighbours' tiles become masked and get their R_sum afresh, so that the
-/// change of the sum is not mistaken for a deformation. Rare, so the processor's.
+/// Takes the newly torn particles out of the sums: their neighbours' tiles become masked, keep their stress and get their R_sum and T afresh,
+/// so that the change of the sums is not mistaken for a deformation. Rare, so the processor's.
 template <class R>
 void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
     const exec::HostAccess host;
+    using V = Pack<R>;
+    std::vector<std::size_t> torn;
     std::vector<bool> touched(b.layout.tiles.size(), false);
     std::vector<std::size_t> first_tile(b.layout.columns.size() + 1, 0);
     for (const Tile& t : b.layout.tiles) ++first_tile[static_cast<std::size_t>(t.column) + 1];
@@ -391,11 +416,7 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
     };
     for (std::size_t k = 0; k < b.layout.flags.size(); ++k) {
         if (!(b.layout.flags[k] & slot_torn) || b.live[k] == R(0)) continue;
-        ++report.torn;
-        b.live[k] = R(0);
-        for (auto& a : b.T) a[k] = R(0);
-        for (auto& a : b.s) a[k] = R(0);
-        b.pressure[k] = b.power[k] = b.stiffness[k] = R(0);
+        torn.push_back(k);
         const std::size_t c = column_of(static_cast<std::int64_t>(k));
         for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
             const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
@@ -404,16 +425,34 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         }
         for (std::size_t t = first_tile[c]; t < first_tile[c + 1]; ++t) touched[t] = true;
     }
-    fill_images(b.layout, {b.live.data()});
     const SolidView<R> body = view(b);
     const PairsView<R> bonds = view(pairs);
-    exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t t) {
-        if (!touched[static_cast<std::size_t>(t)]) return;
-        Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
-        tile.masked = true;
-        for (std::int64_t i = tile.base; i < tile.base + b.layout.width; i += lanes<R>)
-            store_matrix(body.R_sum, i, gather<Pack<R>, true>(body, bonds, i, tile.column).r);
+    const int packs = b.layout.width / lanes<R>;
+    std::vector<Sym3<V>> stress_of(touched.size() * static_cast<std::size_t>(packs));
+    const auto each_touched = [&](auto&& f) {  // f(pack of a tile, its stress)
+        exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t t) {
+            if (!touched[static_cast<std::size_t>(t)]) return;
+            const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
+            for (int p = 0; p < packs; ++p) f(Tile{tile.base + p * lanes<R>, tile.column, tile.masked}, stress_of[static_cast<std::size_t>(t * packs + p)]);
+        });
+    };
+    each_touched([&](const Tile& pack, Sym3<V>& sigma) {
+        const Gathered<V> g = gather<V>(body, bonds, pack);
+        const Mat3<V> h = load_matrix<V>(body.R_sum, pack.base) * g.k_inverse;
+        sigma = cauchy(load_matrix<V>(body.T, pack.base) + load<V>(body.stiffness + pack.base) * h, g.k, plus_identity(h));
     });
+    for (const std::size_t k : torn) b.live[k] = b.pressure[k] = b.power[k] = b.stiffness[k] = R(0);
+    for (std::size_t t = 0; t < touched.size(); ++t)
+        if (touched[t]) b.layout.tiles[t].masked = true;
+    fill_images(b.layout, {b.live.data()});
+    each_touched([&](const Tile& pack, const Sym3<V>& sigma) {
+        const std::int64_t i = pack.base;
+        const Gathered<V> g = gather<V>(body, bonds, pack);
+        const Mat3<V> h = g.r * g.k_inverse, t = piola(sigma, cofactor(plus_identity(h)), g.k_inverse) - load<V>(body.stiffness + i) * h;
+        store_matrix(body.R_sum, i, g.r);
+        store_matrix(body.T, i, load<V>(body.live + i) * t);
+    });
+    report.torn += static_cast<std::int64_t>(torn.size());
 }
 
 }  // namespace
@@ -448,8 +487,7 @@ struct ControlKernel {
     R dt;
     BRISANCE_HD double operator()(std::int64_t n) const {
         const Tile tile = b.pack(n);
-        const Sym3<V> k_inverse = (tile.masked ? gather<V, true>(b, pairs, tile.base, tile.column) : gather<V, false>(b, pairs, tile.base, tile.column)).k_inverse;
-        const V stored = load<V>(b.stiffness + tile.base) * misfit<V>(b, pairs, tile, dt, k_inverse);
+        const V stored = load<V>(b.stiffness + tile.base) * misfit<V>(b, pairs, tile, dt, gather<V>(b, pairs, tile).k_inverse);
         double sum = 0;
         for (int l = 0; l < lanes<R>; ++l)
             if (b.flags[tile.base + l] & slot_own) sum += static_cast<double>(lane(stored, l));
@@ -464,6 +502,22 @@ double control_energy(const SolidBody<R>& b, const ColumnPairs<R>& pairs, double
     return exec::launch_sum(packs(b), ControlKernel<Pack<R>>{view(b), view(pairs), static_cast<R>(dt)});
 }
 
+template <class R>
+void deviators(const SolidBody<R>& body, const ColumnPairs<R>& pairs, const Tile& tile, Sym3<double>* s) {
+    using V = Pack<R>;
+    const SolidView<R> b = view(body);
+    for (int first = 0; first < body.layout.width; first += lanes<R>) {
+        const Tile pack{tile.base + first, tile.column, tile.masked};
+        const Gathered<V> g = gather<V>(b, view(pairs), pack);
+        const Mat3<V> h = load_matrix<V>(b.R_sum, pack.base) * g.k_inverse;
+        const Sym3<V> of_pack = deviator(cauchy(load_matrix<V>(b.T, pack.base) + load<V>(b.stiffness + pack.base) * h, g.k, plus_identity(h)));
+        for (int l = 0; l < lanes<R>; ++l)
+            for (std::size_t a = 0; a < 6; ++a) component(s[first + l], a) = static_cast<double>(lane(component(of_pack, a), l));
+    }
+}
+
+template void deviators(const SolidBody<double>&, const ColumnPairs<double>&, const Tile&, Sym3<double>*);
+template void deviators(const SolidBody<float>&, const ColumnPairs<float>&, const Tile&, Sym3<double>*);
 template double control_energy(const SolidBody<double>&, const ColumnPairs<double>&, double);
 template double control_energy(const SolidBody<float>&, const ColumnPairs<float>&, double);
 template StressReport stress(SolidBody<double>&, const ColumnPairs<double>&, double, double, double);

@@ -50,6 +50,10 @@ void drift(SolidBody<R>& body, double dt, double kick);
 template <class R>
 double control_energy(const SolidBody<R>& body, const ColumnPairs<R>& pairs, double dt);
 
+/// Cauchy deviators of a tile's particles at the t_n of its last stress pass, GPa: s[l] is that of slot base + l; layout.width of them.
+template <class R>
+void deviators(const SolidBody<R>& body, const ColumnPairs<R>& pairs, const Tile& tile, Sym3<double>* s);
+
 /// Of v as it stands.
 template <class R>
 BodySums sums(const SolidBody<R>& body);

@@ -143,6 +143,7 @@ struct MotionKernel {
         } else {
             const double unit[8] = {1, 1, 0, 0, 0, 0, 0, 0};
             for (int c = 0; c < 8; ++c) w.response[8 * k + c] = unit[c];
+            w.resistance[k] = 0;
         }
         float* const place[3] = {w.x, w.y, w.z};
         for (int a = 0; a < 3; ++a) place[a][k] = static_cast<float>(record[a] - w.grid.min[a]);
@@ -208,10 +209,11 @@ struct DivergenceKernel {
     }
 };
 
-/// rho, c, (P + q) L of every entry.
+/// rho, c, (P + q) L of every entry; and R = eps P/rho^2 where it is in tension and has something against it.
 struct ResponseKernel {
     FluidView b;
     FluidWork w;
+    double epsilon;  ///< 0: nothing is in tension
     BRISANCE_HD void operator()(std::int64_t k) const {
         const std::int64_t i = w.particle(k);
         const double x = w.sign(k, 0), y = w.sign(k, 1), z = w.sign(k, 2);
@@ -220,6 +222,7 @@ struct ResponseKernel {
         r[0] = b.rho_now[i];
         r[1] = b.sound[i];
         for (int a = 0; a < 6; ++a) r[2 + a] = turn[a] * (b.pressure[i] + w.q[i]) * component(w.correction[i], static_cast<std::size_t>(a));
+        if (epsilon > 0) w.resistance[k] = b.pressure[i] < 0 ? epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0.0;
     }
 };
 
@@ -227,19 +230,15 @@ struct ResponseKernel {
 struct RatesKernel {
     FluidView b;
     FluidWork w;
-    double alpha, beta, epsilon, exponent;
+    double alpha, beta, exponent;
     bool tension;
-    BRISANCE_HD double resistance(std::int64_t k) const {  // -eps sigma/rho^2
-        const std::int64_t i = w.particle(k);
-        return b.pressure[i] < 0 ? epsilon * b.pressure[i] / (b.rho_now[i] * b.rho_now[i]) : 0.0;
-    }
     BRISANCE_HD FluidSolver::Powers operator()(std::int64_t k) const {
         using V = Pack<double>;
         constexpr int width = lanes<double>;
         if (w.image(k)) return {};
         const std::int64_t i = w.particle(k);
         const double *me = w.motion + 8 * k, *mine = w.response + 8 * k;
-        const double rho = mine[0], c = mine[1], r_i = tension ? resistance(k) : 0.0;
+        const double rho = mine[0], c = mine[1], r_i = tension ? w.resistance[k] : 0.0;
         V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{};
         w.neighbours.packs(k, [&](const std::int32_t* list) {
             const Pairs<V> p = pairs<V>(me, w.motion, list);
@@ -253,11 +252,14 @@ struct RatesKernel {
             V bracket = pi;
             if (tension) {
                 alignas(64) double r_j[width];
-                for (int l = 0; l < width; ++l) r_j[l] = list[l] < w.grid.entries ? resistance(list[l]) : 0.0;
-                const V wi = kernel::shape(p.r / p.h), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
-                const V extra = -(r_i + load<V>(r_j)) * power(wi / vmax(w0, broadcast<V>(1e-6)), exponent);
-                bracket += extra;
-                artificial -= 0.5 * mj * extra * weight * vr;
+                for (int l = 0; l < width; ++l) r_j[l] = w.resistance[list[l]];
+                const V resistance = r_i + load<V>(r_j);
+                if (any_lane(resistance < V{})) {
+                    const V wi = kernel::shape(p.r / p.h), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
+                    const V extra = -resistance * power(wi / vmax(w0, broadcast<V>(1e-6)), exponent);
+                    bracket += extra;
+                    artificial -= 0.5 * mj * extra * weight * vr;
+                }
             }
             const Sym3<V> p_sum{mine[2] + other[2], mine[3] + other[3], mine[4] + other[4], mine[5] + other[5], mine[6] + other[6], mine[7] + other[7]};
             const V volume = p.volume * weight, along = mj * weight * bracket * rho;
@@ -290,12 +292,13 @@ FluidWork FluidSolver::sort(const FluidBody& b) {
     const auto padded = static_cast<std::size_t>(grid_.entries() + lanes<float>), n = static_cast<std::size_t>(body.n);
     for (auto* a : {&x_, &y_, &z_, &h_}) make_room(*a, padded);
     for (auto* a : {&motion_, &response_}) make_room(*a, 8 * padded);
+    make_room(resistance_, padded);
     for (auto* a : {&mu_, &q_}) make_room(*a, n);
     if (correction_.size() != n) {
         const exec::HostAccess host;
         correction_.resize(n);
     }
-    FluidWork w{grid_.view(), points_.view(), {}, x_.data(), y_.data(), z_.data(), h_.data(), motion_.data(), response_.data(), correction_.data(), mu_.data(), q_.data(), body.n};
+    FluidWork w{grid_.view(), points_.view(), {}, x_.data(), y_.data(), z_.data(), h_.data(), motion_.data(), response_.data(), resistance_.data(), correction_.data(), mu_.data(), q_.data(), body.n};
     exec::launch(static_cast<std::int64_t>(padded), MotionKernel{body, w}, 1024);
     neighbours_.build(w.grid, {w.x, w.y, w.z, w.h, w.motion, h_max}, OwnEntries{w});
     w.neighbours = neighbours_.view();
@@ -306,10 +309,10 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     const FluidView body = view(b);
     const FluidWork w = sort(b);
     exec::launch(w.grid.entries, DivergenceKernel{body, w, b.options.linear, b.options.quadratic});
-    exec::launch(w.grid.entries, ResponseKernel{body, w}, 1024);
     // most fluids bear no tension: then there is nothing to resist
-    const bool tension = b.options.artificial_stress && exec::launch_max(body.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return -body.pressure[i]; }) > 0;
-    return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel{body, w, b.options.alpha, b.options.beta, b.options.epsilon, b.options.n, tension});
+    const bool tension = b.options.artificial_stress && b.options.epsilon > 0 && exec::launch_max(body.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return -body.pressure[i]; }) > 0;
+    exec::launch(w.grid.entries, ResponseKernel{body, w, tension ? b.options.epsilon : 0.0}, 1024);
+    return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel{body, w, b.options.alpha, b.options.beta, b.options.n, tension});
 }
 
 void FluidSolver::kick(FluidBody& body, double kick, const double* fx, const double* fy, const double* fz) {

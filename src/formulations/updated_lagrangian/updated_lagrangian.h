@@ -28,6 +28,7 @@ struct FluidWork {
     NeighbourListsView neighbours;
     float *x, *y, *z, *h;          ///< of the entries, from the grid's corner: for the search
     double *motion, *response;     ///< records of the entries: x y z h, m/rho, v; and: rho, c, (P + q) L
+    double* resistance;            ///< R of the entries, where there is tension
     Sym3<double>* correction;      ///< L of the particles
     double *mu, *q;                ///< of the particles: largest |mu|, and bulk viscosity, GPa
     std::int64_t n;                ///< particles
@@ -76,7 +77,7 @@ private:
     Mirrored points_;
     NeighbourLists neighbours_;
     Array<float> x_, y_, z_, h_;
-    Array<double> motion_, response_;
+    Array<double> motion_, response_, resistance_;
     Array<Sym3<double>> correction_;
     Array<double> mu_, q_;
 };

@@ -33,13 +33,16 @@ struct Polar {
     double u = 0, sigma_r = 0, sigma_t = 0, n = 0;
 };
 /// Means around the hole at a radius, of particles within half a width; each value is carried to the radius along the static field.
-Polar around(const SolidBody<double>& b, double r, double half_width) {
+Polar around(const SolidPart<double>& part, double r, double half_width) {
+    const SolidBody<double>& b = part.body;
+    const std::vector<Sym3<double>> deviator = deviators(part);
     Polar out;
     each(b, [&](std::size_t i, const Column& column, Vec3<double>) {
         const double at = std::hypot(column.x, column.y);
         if (std::abs(at - r) > half_width) return;
         const double nx = column.x / at, ny = column.y / at;
-        const double rr = b.s[0][i] * nx * nx + b.s[1][i] * ny * ny + 2 * b.s[3][i] * nx * ny, tt = b.s[0][i] * ny * ny + b.s[1][i] * nx * nx - 2 * b.s[3][i] * nx * ny;
+        const Sym3<double>& d = deviator[i];
+        const double rr = d.xx * nx * nx + d.yy * ny * ny + 2 * d.xy * nx * ny, tt = d.xx * ny * ny + d.yy * nx * nx - 2 * d.xy * nx * ny;
         out.u += b.u[0][i] * nx + b.u[1][i] * ny;
         out.sigma_r += rr - b.pressure[i];
         out.sigma_t += tt - b.pressure[i];
@@ -67,7 +70,7 @@ TEST(Cavity, StepOfPressureInABorehole) {
     std::sort(in_time.begin(), in_time.end(), [&](const Row& x, const Row& y) { return when(x) < when(y); });
     for (const Row& row : in_time) {
         run(w, when(row));
-        const Polar q = around(w.solids[0].body, row.r * a, 0.75 * spacing);
+        const Polar q = around(w.solids[0], row.r * a, 0.75 * spacing);
         std::printf("cavity r/a = %g, tau = %g: u %.4f (%.4f) um %+.1f %%, sigma_r %.2f (%.2f) MPa, sigma_theta %.2f (%.2f) MPa\n", row.r, row.tau, 1e3 * q.u, row.u,
                     100 * (1e3 * q.u / row.u - 1), 1e3 * q.sigma_r, row.sigma_r, 1e3 * q.sigma_t, row.sigma_t);
         EXPECT_NEAR(1e3 * q.u, row.u, 0.05 * row.u);
@@ -94,7 +97,7 @@ TEST(Cavity, ThickRingAtRest) {
     EXPECT_LT(sums(body).kinetic, 1e-6 * sums(body).internal);
     const double A = p0 * a * a / (b * b - a * a);
     for (const double r : {1.5 * a, 2 * a, 3 * a, 4 * a}) {
-        const Polar q = around(body, r, 0.75 * spacing);
+        const Polar q = around(w.solids[0], r, 0.75 * spacing);
         const double radial = A * (1 - b * b / (r * r)), hoop = A * (1 + b * b / (r * r)), u = A * r / (2 * (lambda + G)) + A * b * b / (2 * G * r);
         std::printf("ring r/a = %g: sigma_r %.2f (%.2f), sigma_theta %.2f (%.2f) MPa, u %.4f (%.4f) um\n", r / a, 1e3 * q.sigma_r, 1e3 * radial, 1e3 * q.sigma_t, 1e3 * hoop,
                     1e3 * q.u, 1e3 * u);

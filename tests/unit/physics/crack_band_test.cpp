@@ -54,17 +54,18 @@ Broken pull(const Material& material, double spacing, double fracture_energy, do
         time += dt;
         stress(b, part.pairs, time, dt, kick_time);
         double mean = 0, count = 0;
+        const std::vector<Sym3<double>> deviator = deviators(part);
         each(b, [&](std::size_t i, const Column&, Vec3<double>) {
-            mean += static_cast<double>(b.s[0][i] - b.pressure[i]);
+            mean += deviator[i].xx - static_cast<double>(b.pressure[i]);
             ++count;
         });
         r.left = mean / count;
         r.stress = std::max(r.stress, r.left);
     }
     const double K = material.bulk_modulus(), G = material.strength->shear_modulus();
+    const std::vector<Sym3<double>> deviator = deviators(part);
     each(b, [&](std::size_t i, const Column&, Vec3<double>) {
-        double ss = 0;
-        for (std::size_t k = 0; k < 6; ++k) ss += (k < 3 ? 1 : 2) * sq(static_cast<double>(b.s[k][i]));
+        const double ss = ddot(deviator[i], deviator[i]);
         r.dissipated += volume * (static_cast<double>(b.energy[i]) - ss / (4 * G) - sq(static_cast<double>(b.pressure[i])) / (2 * K));
         r.layers += b.damage(i) * volume / (width * width * spacing);
     });
