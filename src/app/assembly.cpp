@@ -256,12 +256,14 @@ Estimate estimate(const Case& c) {
         part.mass = area * (high - low) * m.density;
         const double layers = std::max(1.0, std::round((high - low) / p.spacing_z));
         part.particles = columns * layers;
-        const double real = c.precision == Precision::single ? 4 : 8, width = 64 / real;
+        const bool single = c.precision == Precision::single;
+        const double real = single ? 4 : 8, width = single ? tile_width<float> : tile_width<double>;
         const double pad = largest_offset(p.smoothing);
         part.lanes = solid ? columns * std::ceil(layers / width) * width : part.particles;
         const double slots = solid ? part.lanes + columns * std::ceil(2 * pad / width) * width : part.particles;
         const double state = m.strength ? static_cast<double>(m.strength->state().size()) : 0;
-        const double per_slot = solid ? real * (31 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : 8.0 * (3 * 5 + 13 + 14) + 64;
+        constexpr double fluid_bytes = 1250;  // with lists of 70 neighbours: bench water, docs/performance.md
+        const double per_slot = solid ? real * (31 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : fluid_bytes;
         part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
         part.dt = solid ? c.step.courant_solid * stencil_tau(p.smoothing, p.zero_energy) * std::min(p.spacing, p.spacing_z) / m.sound_speed()
                         : c.step.courant_fluid * p.smoothing * p.spacing /

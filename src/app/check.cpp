@@ -16,8 +16,8 @@ namespace {
 
 /// How long a case will take here, s: this machine's speed is measured for a moment.
 double foretell(const Case& c, const Estimate& e) {
-    // What a blast makes of it. Solids: what fails is dearer than what does not, and all of it is more than the caches hold. Fluids: contact is
-    // counted among what they cost. Both of cases/blast, the presets quick and full (docs/performance.md).
+    // In a blast they get this much of the speed that they have by themselves: output takes its part, and contact is counted among what fluids
+    // cost. Shares of cases/blast/air_copper.toml, of the solids in the preset quick, of the fluids in full (docs/performance.md).
     constexpr double solid_share = 0.75, fluid_share = 0.5;
     double seconds = 0;
     if (e.solid_steps > 0) seconds += e.solid_steps / (solid_share * loop_speed("bench/rock.toml", 1e5, c.precision, 24, 0.3).rate);

@@ -4,7 +4,7 @@
 
 #include "exec/launch.h"
 #include "math/pack.h"
-#include "neighbours/cell_grid.h"
+#include "neighbours/support_map.h"
 
 #include <algorithm>
 
@@ -49,6 +49,7 @@ struct SearchKernel {
     Supports s;
     NeighbourListsView v;
     Wanted wanted;
+    SupportMapView supports;
     float slack;
     BRISANCE_HD double operator()(std::int64_t i) const {
         using V = Pack<float>;
@@ -56,7 +57,7 @@ struct SearchKernel {
         v.count[i] = 0;
         if (!wanted(i)) return 0;
         const double* const at = s.records + 8 * i;
-        const double reach = std::min(at[3] + s.h_max, 2 * s.h_max) + static_cast<double>(slack);
+        const double reach = at[3] + supports.near(at[0], at[1], at[2]) + static_cast<double>(slack);
         const float x = s.x[i], y = s.y[i], z = s.z[i], h = s.h[i] + slack;
         const std::int64_t full = v.capacity - 2 * width;
         std::int64_t end = 0;
@@ -82,11 +83,12 @@ public:
         NeighbourListsView& v = view_;
         v.entries = grid.entries;
         make_room(count_, static_cast<std::size_t>(v.entries));
+        supports_.build(grid, s.h, s.h_max);
         v.count = count_.data();
         for (;;) {
             make_room(lists_, static_cast<std::size_t>(v.entries * v.capacity + lanes<float>));
             v.lists = lists_.data();
-            const auto most = static_cast<std::int64_t>(exec::launch_max(v.entries, 0.0, SearchKernel<Wanted>{grid, s, v, wanted, s.slack(grid)}));
+            const auto most = static_cast<std::int64_t>(exec::launch_max(v.entries, 0.0, SearchKernel<Wanted>{grid, s, v, wanted, supports_.view(), s.slack(grid)}));
             if (most + 2 * lanes<float> <= v.capacity) return;
             v.capacity = (most + most / 8 + 3 * lanes<float>) / v.width * v.width;
         }
@@ -96,6 +98,7 @@ public:
 private:
     NeighbourListsView view_{nullptr, nullptr, 0, 96};
     Array<std::int32_t> lists_, count_;
+    SupportMap supports_;
 };
 
 }  // namespace brisance
