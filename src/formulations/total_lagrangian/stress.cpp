@@ -405,7 +405,7 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
     const exec::HostAccess host;
     using V = Pack<R>;
     std::vector<std::size_t> torn;
-    std::vector<bool> touched(b.layout.tiles.size(), false);
+    std::vector<bool> is_touched(b.layout.tiles.size(), false);
     std::vector<std::size_t> first_tile(b.layout.columns.size() + 1, 0);
     for (const Tile& t : b.layout.tiles) ++first_tile[static_cast<std::size_t>(t.column) + 1];
     for (std::size_t c = 0; c < b.layout.columns.size(); ++c) first_tile[c + 1] += first_tile[c];
@@ -421,20 +421,18 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
             const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
             const std::size_t other = column_of(b.layout.columns[c].start + pair.shift + (b.layout.pad + 1));
-            for (std::size_t t = first_tile[other]; t < first_tile[other + 1]; ++t) touched[t] = true;
+            for (std::size_t t = first_tile[other]; t < first_tile[other + 1]; ++t) is_touched[t] = true;
         }
-        for (std::size_t t = first_tile[c]; t < first_tile[c + 1]; ++t) touched[t] = true;
+        for (std::size_t t = first_tile[c]; t < first_tile[c + 1]; ++t) is_touched[t] = true;
     }
     const SolidView<R> body = view(b);
     const PairsView<R> bonds = view(pairs);
-    const int packs = b.layout.width / lanes<R>;
-    std::vector<Sym3<V>> stress_of(touched.size() * static_cast<std::size_t>(packs));
-    const auto each_touched = [&](auto&& f) {  // f(pack of a tile, its stress)
-        exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t t) {
-            if (!touched[static_cast<std::size_t>(t)]) return;
-            const Tile& tile = b.layout.tiles[static_cast<std::size_t>(t)];
-            for (int p = 0; p < packs; ++p) f(Tile{tile.base + p * lanes<R>, tile.column, tile.masked}, stress_of[static_cast<std::size_t>(t * packs + p)]);
-        });
+    std::vector<std::int64_t> touched;  // packs of tiles, numbered as the kernels do
+    for (std::size_t t = 0; t < is_touched.size(); ++t)
+        for (std::int64_t p = 0; is_touched[t] && p < std::int64_t{1} << body.packs_shift; ++p) touched.push_back((static_cast<std::int64_t>(t) << body.packs_shift) + p);
+    std::vector<Sym3<V>> stress_of(touched.size());
+    const auto each_touched = [&](auto&& f) {
+        exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t n) { f(body.pack(touched[static_cast<std::size_t>(n)]), stress_of[static_cast<std::size_t>(n)]); });
     };
     each_touched([&](const Tile& pack, Sym3<V>& sigma) {
         const Gathered<V> g = gather<V>(body, bonds, pack);
@@ -442,16 +440,18 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         sigma = cauchy(load_matrix<V>(body.T, pack.base) + load<V>(body.stiffness + pack.base) * h, g.k, plus_identity(h));
     });
     for (const std::size_t k : torn) b.live[k] = b.pressure[k] = b.power[k] = b.stiffness[k] = R(0);
-    for (std::size_t t = 0; t < touched.size(); ++t)
-        if (touched[t]) b.layout.tiles[t].masked = true;
+    for (std::size_t t = 0; t < is_touched.size(); ++t)
+        if (is_touched[t]) b.layout.tiles[t].masked = true;
     fill_images(b.layout, {b.live.data()});
     each_touched([&](const Tile& pack, const Sym3<V>& sigma) {
         const std::int64_t i = pack.base;
         const Gathered<V> g = gather<V>(body, bonds, pack);
         const Mat3<V> h = g.r * g.k_inverse, t = piola(sigma, cofactor(plus_identity(h)), g.k_inverse) - load<V>(body.stiffness + i) * h;
         store_matrix(body.R_sum, i, g.r);
-        store_matrix(body.T, i, load<V>(body.live + i) * t);
+        store_matrix(body.T, i, t);
     });
+    for (auto& a : b.T)  // theirs may be no number
+        for (const std::size_t k : torn) a[k] = R(0);
     report.torn += static_cast<std::int64_t>(torn.size());
 }
 
