@@ -41,7 +41,7 @@ MUTANTS = {
     "load_inward": ("the pressure on a wall pulls", "src/boundary/boundary.cpp", "load[n] = (-pressure * s.area[i]) * area;", "load[n] = (pressure * s.area[i]) * area;", ("cavity",)),
     "strength_of_compression": ("a particle breaks in compression in place of tension", STRESS, "(one_now > R(rule.tensile) * p.scale)", "(-one_now > R(rule.tensile) * p.scale)", ("spall",)),
     "no_reaction": ("contact pushes the node and not the wall", "src/contact/wall_contact.cpp", "wall.f[0][j] -= hsum(f.x);", "wall.f[0][j] -= 0 * hsum(f.x);", ("rings", "contact_pulse")),
-    "artificial_stress_sign": ("the artificial stress attracts", FLUID, "const V extra = -(r_i", "const V extra = (r_i", ("liquid_under_tension",)),
+    "artificial_stress_sign": ("the artificial stress attracts", FLUID, "const V extra = -resistance", "const V extra = resistance", ("liquid_under_tension",)),
     "images_at_rest": ("neighbours beyond the period stand still at the start", "src/integrate/step.cpp", "complete(s.body);", "", ("rings",)),
 }
 
