@@ -266,11 +266,13 @@ double lost_at_rest(int passes) {
 }
 
 TEST(TotalLagrangian, AtRestTheDeviatorStays) {
-    // A stiff control: a|F - I| = 2 GPa beside a stress of 1 GPa. In double the way there and back is off by 3e-16 each time. In single that
-    // would be 1e-7, and 1 % in the end, were it not carried over.
+    // In double the way there and back is off by 3e-16 each time. In single that would be 1e-7, and 1 % in the end, were it not carried over:
+    // T settles within a hundred passes, off by its own rounding, 1e-7 a|F - I| of several GPa beside a stress of tenths (2e-6 without
+    // multiply-adds in one, 3e-7 with them), and then stays.
     EXPECT_LT(lost_at_rest<double>(1000), 1e-12);
-    EXPECT_LT(lost_at_rest<float>(10), 1e-6);
-    EXPECT_LT(lost_at_rest<float>(20000), 1e-6);
+    const double settled = lost_at_rest<float>(2000);
+    EXPECT_LT(settled, 1e-5);
+    EXPECT_EQ(lost_at_rest<float>(20000), settled);
 }
 
 TEST(TotalLagrangian, NeighboursOfATornParticleKeepTheirStress) {
