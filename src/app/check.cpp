@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// brisance check: what a case will need. Runs nothing.
+// brisance check: what a case will need. Places and steps nothing of it.
 #include "app/assembly.h"
 #include "app/commands.h"
 #include "app/loop_speed.h"

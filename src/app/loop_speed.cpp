@@ -12,6 +12,12 @@
 
 namespace brisance {
 
+double seconds_of(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 CaseOptions shipped_case(const std::string& file) {
     CaseOptions o;
     o.file = (std::filesystem::path(BRISANCE_SOURCE_DIR) / "cases" / file).string();
@@ -47,9 +53,7 @@ LoopSpeed speed(const Case& c, double seconds) {
     m.bytes = (resident_memory() - before) / m.particles;
     double spent = 0, steps = 0;
     while (spent < seconds && w.time < c.until) {
-        const auto start = std::chrono::steady_clock::now();
-        step(w, c.until);
-        spent += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        spent += seconds_of([&] { step(w, c.until); });
         ++steps;
     }
     m.rate = steps * m.particles / spent;

@@ -5,10 +5,13 @@
 #include "app/commands.h"
 #include "io/case.h"
 
+#include <functional>
 #include <string>
 
 namespace brisance {
 
+/// Wall time of some work, s.
+double seconds_of(const std::function<void()>& work);
 /// A case that comes with the program, by its path in cases/.
 CaseOptions shipped_case(const std::string& file);
 /// One of cases/bench with about so many particles in its cube of `edge` mm; 0: as it is.

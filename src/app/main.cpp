@@ -68,7 +68,7 @@ int main_with_errors(int argc, char** argv) {
     resume->add_option("--hash-every", o.hash_every, "log a hash of the whole state every so many steps")->check(CLI::PositiveNumber);
     resume->callback([&] { code = resume_command(name, older, o); });
 
-    CLI::App* check = app.add_subcommand("check", "particles, memory, first step, time; runs nothing");
+    CLI::App* check = app.add_subcommand("check", "particles, memory, first step, time; runs nothing of the case");
     case_flags(check);
     check->add_flag("--json", o.json, "machine-readable");
     check->callback([&] { code = check_command(o); });

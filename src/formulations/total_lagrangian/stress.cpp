@@ -23,6 +23,19 @@ struct Gathered {
     Sym3<V> k{}, k_inverse{};
 };
 
+/// K and its inverse where no neighbour is missing.
+template <class V, class R>
+BRISANCE_HD Gathered<V> whole(const PairsView<R>& pairs, std::int32_t column) {
+    const double* n = pairs.k_inverse + 6 * static_cast<std::int64_t>(column);
+    const Sym3<double> k_inverse{n[0], n[1], n[2], n[3], n[4], n[5]}, k = inverse(k_inverse);
+    Gathered<V> g;
+    for (std::size_t a = 0; a < 6; ++a) {
+        component(g.k, a) = broadcast<V>(R(component(k, a)));
+        component(g.k_inverse, a) = broadcast<V>(R(component(k_inverse, a)));
+    }
+    return g;
+}
+
 /// The sums of the particles in slots base, base + 1, ... of a column.
 template <class V, bool masked, class R>
 BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs, std::int64_t base, std::int32_t column) {
@@ -30,6 +43,7 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
     const R *ux = b.u[0] + base, *uy = b.u[1] + base, *uz = b.u[2] + base, *live = b.live + base;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz);
     Gathered<V> g;
+    if constexpr (!masked) g = whole<V>(pairs, column);
     Sym3<V> K{};
     for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
         const ColumnPair<R>& pair = pairs.pairs[p];
@@ -85,19 +99,17 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
         g.k = safe;
         g.k_inverse = scaled(inverse(safe), on);
         g.r = on * g.r;
-    } else {
-        const double* n = pairs.k_inverse + 6 * c;
-        const Sym3<double> k_inverse{n[0], n[1], n[2], n[3], n[4], n[5]}, k = inverse(k_inverse);
-        for (std::size_t a = 0; a < 6; ++a) {
-            component(g.k, a) = broadcast<V>(R(component(k, a)));
-            component(g.k_inverse, a) = broadcast<V>(R(component(k_inverse, a)));
-        }
     }
     return g;
 }
 template <class V, class R>
 BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& t) {
     return t.masked ? gather<V, true>(b, pairs, t.base, t.column) : gather<V, false>(b, pairs, t.base, t.column);
+}
+/// The same where only K is wanted.
+template <class V, class R>
+BRISANCE_HD Gathered<V> gather_k(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& t) {
+    return t.masked ? gather<V, true>(b, pairs, t.base, t.column) : whole<V>(pairs, t.column);
 }
 
 template <class V, class R> BRISANCE_INLINE Mat3<V> load_matrix(R* const (&a)[9], std::int64_t i) {
@@ -137,6 +149,12 @@ template <class V> BRISANCE_INLINE Sym3<V> deviator(Sym3<V> s) {
     s.yy -= mean;
     s.zz -= mean;
     return s;
+}
+
+/// The stress that T holds, with the K that it was made with.
+template <class V, class R> BRISANCE_HD Sym3<V> kept_stress(const SolidView<R>& b, std::int64_t i, const Gathered<V>& g) {
+    const Mat3<V> h = load_matrix<V>(b.R_sum, i) * g.k_inverse;
+    return cauchy(load_matrix<V>(b.T, i) + load<V>(b.stiffness + i) * h, g.k, plus_identity(h));
 }
 
 template <class V> BRISANCE_INLINE void set_lane(V& v, int l, ScalarOf<V> x) {
@@ -434,11 +452,7 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
     const auto each_touched = [&](auto&& f) {
         exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t n) { f(body.pack(touched[static_cast<std::size_t>(n)]), stress_of[static_cast<std::size_t>(n)]); });
     };
-    each_touched([&](const Tile& pack, Sym3<V>& sigma) {
-        const Gathered<V> g = gather<V>(body, bonds, pack);
-        const Mat3<V> h = load_matrix<V>(body.R_sum, pack.base) * g.k_inverse;
-        sigma = cauchy(load_matrix<V>(body.T, pack.base) + load<V>(body.stiffness + pack.base) * h, g.k, plus_identity(h));
-    });
+    each_touched([&](const Tile& pack, Sym3<V>& sigma) { sigma = kept_stress(body, pack.base, gather_k<V>(body, bonds, pack)); });
     for (const std::size_t k : torn) b.live[k] = b.pressure[k] = b.power[k] = b.stiffness[k] = R(0);
     for (std::size_t t = 0; t < is_touched.size(); ++t)
         if (is_touched[t]) b.layout.tiles[t].masked = true;
@@ -487,7 +501,7 @@ struct ControlKernel {
     R dt;
     BRISANCE_HD double operator()(std::int64_t n) const {
         const Tile tile = b.pack(n);
-        const V stored = load<V>(b.stiffness + tile.base) * misfit<V>(b, pairs, tile, dt, gather<V>(b, pairs, tile).k_inverse);
+        const V stored = load<V>(b.stiffness + tile.base) * misfit<V>(b, pairs, tile, dt, gather_k<V>(b, pairs, tile).k_inverse);
         double sum = 0;
         for (int l = 0; l < lanes<R>; ++l)
             if (b.flags[tile.base + l] & slot_own) sum += static_cast<double>(lane(stored, l));
@@ -508,9 +522,7 @@ void deviators(const SolidBody<R>& body, const ColumnPairs<R>& pairs, const Tile
     const SolidView<R> b = view(body);
     for (int first = 0; first < body.layout.width; first += lanes<R>) {
         const Tile pack{tile.base + first, tile.column, tile.masked};
-        const Gathered<V> g = gather<V>(b, view(pairs), pack);
-        const Mat3<V> h = load_matrix<V>(b.R_sum, pack.base) * g.k_inverse;
-        const Sym3<V> of_pack = deviator(cauchy(load_matrix<V>(b.T, pack.base) + load<V>(b.stiffness + pack.base) * h, g.k, plus_identity(h)));
+        const Sym3<V> of_pack = deviator(kept_stress(b, pack.base, gather_k<V>(b, view(pairs), pack)));
         for (int l = 0; l < lanes<R>; ++l)
             for (std::size_t a = 0; a < 6; ++a) component(s[first + l], a) = static_cast<double>(lane(component(of_pack, a), l));
     }
