@@ -96,6 +96,7 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
 
     b.layout.columns.assign(placement.columns.begin(), placement.columns.end());
     b.layout.dz = placement.dz;
+    b.layout.z_low = placement.z_low;
     b.layout.periodic = extent.periodic;
     b.layout.width = tile_width<R>;
     b.layout.pad = largest_offset(p.smoothing);
@@ -202,8 +203,8 @@ bool in_contact(const Case& c, const std::string& a, const std::string& b) {
 
 double mean_spacing(const Surface& s) {
     double sum = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) sum += s.spacing[i] + s.dz[i];
-    return s.size() ? sum / static_cast<double>(s.size()) : 0;
+    for (std::size_t i = 0; i < s.sides; ++i) sum += s.spacing[i] + s.dz[i];
+    return s.sides ? sum / static_cast<double>(s.sides) : 0;
 }
 
 }  // namespace

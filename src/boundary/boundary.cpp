@@ -74,11 +74,14 @@ ContactReport press(const Platen& platen, const FluidBody& b, FluidForces& f) {
     const exec::HostAccess host;
     const Point n = (1 / norm(platen.normal)) * platen.normal;
     ContactReport report;
+    const auto inside = [&](const std::array<Array<double>, 3>& at, std::size_t i) { return dot(platen.point - Point{at[0][i], at[1][i], at[2][i]}, n); };
     for (std::size_t i = 0; i < b.mass.size(); ++i) {
-        const double kappa = b.current_spacing(i);
-        const double inside = dot(platen.point - Point{b.x[0][i], b.x[1][i], b.x[2][i]}, n), overlap = 0.5 * kappa - inside;
+        const double kappa = f.spacing[i], gap = inside(b.x, i);
+        if (!(gap < 0.5 * kappa)) continue;
+        const double at_rest = std::cbrt(b.mass[i] / (b.rho_start.empty() ? b.material.density : b.rho_start[i]));
+        const double overlap = kappa * std::clamp(inside(b.reference, i) / at_rest, 0.0, 0.5) - gap;
         if (!(overlap > 0)) continue;
-        const double k = 4 * std::max(b.rho_now[i] * b.sound[i] * b.sound[i], 1e-9) * kappa;
+        const double k = 8 * f.modulus[i] * kappa;
         f.fx[i] -= k * overlap * n.x;
         f.fy[i] -= k * overlap * n.y;
         f.fz[i] -= k * overlap * n.z;
@@ -149,7 +152,7 @@ WallPressure make_wall_pressure(const SolidBody<R>& body, const Surface& s, cons
     WallPressure p;
     p.times = std::move(times);
     p.values = std::move(values);
-    for (std::size_t i = 0; i < s.size(); ++i) {
+    for (std::size_t i = 0; i < s.sides; ++i) {
         const Column& c = body.layout.columns[static_cast<std::size_t>(s.column[i])];
         if (on.contains({c.x + c.wall_distance * c.wall_normal_x, c.y + c.wall_distance * c.wall_normal_y, s.z_reference[i]})) p.points.push_back(i);
     }

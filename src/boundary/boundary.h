@@ -21,7 +21,8 @@ template <class R> FixedPlane make_fixed_region(const SolidBody<R>& body, const 
 /// Takes the held components out; adds the impulse given by the support to `impulse`, mg mm/us.
 template <class R> void hold(const FixedPlane& plane, SolidBody<R>& body, double impulse[3]);
 
-/// A rigid, frictionless plane: penalty on whatever comes closer than half its spacing. normal points out of the material.
+/// A rigid, frictionless plane: penalty on whatever comes closer than half its spacing, or than where it stood at the start if that is
+/// closer (columns end where they end). normal points out of the material.
 struct Platen {
     Point point{}, normal{};
 };

@@ -19,9 +19,10 @@ void FluidForces::begin(const FluidBody& body) {
         }
     const FluidView b = view(body);
     double *const x = fx.data(), *const y = fy.data(), *const z = fz.data(), *const s = spacing.data(), *const m = modulus.data();
+    const double widest = body.options.h_max * body.spacing;
     largest_spacing = exec::launch_max(b.n, 0.0, BRISANCE_KERNEL(std::int64_t i) {
         x[i] = y[i] = z[i] = 0;
-        s[i] = b.current_spacing(i);
+        s[i] = std::min(b.current_spacing(i), widest);
         m[i] = std::max(b.rho_now[i] * b.sound[i] * b.sound[i], 1e-9);
         return s[i];
     });

@@ -4,10 +4,11 @@
 // fluid - fluid: node to node. d_c = (kappa_i + kappa_j)/2 with kappa the current spacing, f = k (d_c - r) along the line of centres.
 //
 // anything - solid: node to smoothed surface. A solid's first layer carries points on its wall, s_j = x_j + delta_j n_j, and normals
-// n_j = cof(F) N/|cof(F) N|. A node i of the other part sees the weighted plane of the surface points near it,
+// n_j = cof(F) N/|cof(F) N|; so do the ends of its columns, for fluids. A node i of the other part sees the weighted plane of the points near it,
 //   gap = sum omega_ij (x_i - s_j).n_j / sum omega_ij,   f = k (radius_i - gap) (1 + (overlap/radius)^2) n,
 // and the reaction goes back to the nodes with the same weights. So a coarse wall is as smooth and as tight as a fine one: node-to-node
 // contact would let fine gas through between coarse nodes, and roughen the wall by a quarter of the spacing.
+// Where a side meets an end, at the rim of a borehole, the node has a plane of each, and touches the one that it is farther in front of.
 //
 // Stiffness: the larger of k = factor K A/l from the series of the two moduli rho c^2, and 0.1 m*/dt^2, the hardest spring that the
 // step bears with forty contacts at a node. The second matters for gas: a wall at several times its sound speed would run through
@@ -28,7 +29,7 @@ struct ContactOptions {
     double dt = 0;   ///< us, the step at hand; 0: not known yet
 };
 
-/// The wall of a solid as contact sees it.
+/// The walls of a solid as contact sees them: its sides, then the upper ends of its columns, then the lower ones (none in a slice).
 struct Surface {
     Array<std::int64_t> slot;    ///< of the particle behind each surface point
     Array<std::int32_t> column;
@@ -40,8 +41,12 @@ struct Surface {
     Array<double> ix, iy, iz;               ///< impulse of the coming kick, mg mm/us
     Array<double> jx, jy, jz;               ///< of a body with long steps: impulse applied ahead of what contact gave, mg mm/us
     Array<double> z_reference;
+    Array<double> offset;                   ///< of the wall from the particle, at rest, mm
     Array<double> depth;                    ///< how far behind the wall a node is still pushed back, mm
+    Array<double> face;                     ///< 0: a side; 1, -1: an upper or lower end
+    std::size_t sides = 0, upper = 0;       ///< how many are sides; and how many sides or upper ends. A particle has no two points of a kind
     double coarsest = 0;                    ///< mm, largest of spacing and dz
+    double density = 0;                     ///< g/cm3, at rest
     std::size_t size() const { return slot.size(); }
 };
 
@@ -49,18 +54,19 @@ struct Surface {
 struct SurfaceView {
     const std::int64_t* slot;
     const std::int32_t* column;
-    double *x, *y, *z, *n[3], *v[3], *mass, *area, *spacing, *dz, *modulus, *f[3], *i[3], *j[3], *z_reference, *depth;
-    std::int64_t size;
+    double *x, *y, *z, *n[3], *v[3], *mass, *area, *spacing, *dz, *modulus, *f[3], *i[3], *j[3], *z_reference, *offset, *depth, *face;
+    std::int64_t size, sides, upper;
 };
 /// Kernels that only read take it too, so that a surface that is constant has one.
 inline SurfaceView view(const Surface& constant) {
     auto& s = const_cast<Surface&>(constant);
     return {s.slot.data(), s.column.data(), s.x.data(), s.y.data(), s.z.data(), {s.nx.data(), s.ny.data(), s.nz.data()}, {s.vx.data(), s.vy.data(), s.vz.data()},
             s.mass.data(), s.area.data(), s.spacing.data(), s.dz.data(), s.modulus.data(), {s.fx.data(), s.fy.data(), s.fz.data()},
-            {s.ix.data(), s.iy.data(), s.iz.data()}, {s.jx.data(), s.jy.data(), s.jz.data()}, s.z_reference.data(), s.depth.data(), static_cast<std::int64_t>(s.size())};
+            {s.ix.data(), s.iy.data(), s.iz.data()}, {s.jx.data(), s.jy.data(), s.jz.data()}, s.z_reference.data(), s.offset.data(), s.depth.data(), s.face.data(),
+            static_cast<std::int64_t>(s.size()), static_cast<std::int64_t>(s.sides), static_cast<std::int64_t>(s.upper)};
 }
 
-/// The surface points of a body: particles of the first layer at its walls.
+/// The surface points of a body: particles of the first layer at its walls, and of the ends of its columns.
 template <class R> Surface make_surface(const SolidBody<R>& body);
 /// Moves the points with the body, `ahead` us (negative: back) from where its displacements stand, and clears the forces.
 template <class R> void follow(Surface& s, const SolidBody<R>& body, const ColumnPairs<R>& pairs, double ahead);
@@ -87,7 +93,7 @@ struct ContactReport {
 /// Forces on fluid particles: arrays beside a FluidBody.
 struct FluidForces {
     Array<double> fx, fy, fz;          ///< mN
-    Array<double> spacing, modulus;    ///< current spacing kappa, mm, and rho c^2, GPa, of each particle
+    Array<double> spacing, modulus;    ///< current spacing kappa, mm (no wider than its support may grow), and rho c^2, GPa, of each particle
     double largest_spacing = 0;
     /// No forces, and the spacing and stiffness of the present state.
     void begin(const FluidBody& body);
@@ -110,7 +116,7 @@ ContactReport node_contact(const FluidBody& a, const FluidBody& b, const Contact
 
 /// A fluid against the smoothed surface of a solid.
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa);
-/// The surface of one solid against that of another: the points of `nodes` against the smoothed surface `wall` (the coarser of the two).
+/// The sides of one solid against those of another: the points of `nodes` against the smoothed surface `wall` (the coarser of the two).
 ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period);
 
 }  // namespace brisance

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/chosen_points.h"
+#include "contact/sorted_columns.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 
@@ -9,6 +10,9 @@
 namespace brisance {
 
 namespace {
+
+using V = Pack<double>;
+constexpr int width = lanes<double>;
 
 struct Touched {
     double stored = 0, overlap = 0;
@@ -26,6 +30,7 @@ struct Touched {
 struct Layer {
     RingMapView map;
     const std::int32_t* points = nullptr;
+    SortedView<4> near{};   ///< x y z and spacing of the grid's entries
     double widest = 0;
 };
 constexpr int layers = 4;
@@ -39,13 +44,28 @@ struct Side {
     Layer layer[layers];
 };
 
-/// Kept between steps for its memory; contact is not re-entrant.
-struct Sorted {
-    Mirrored points;
-    ChosenPoints chosen[layers];
+/// Row k of a layer's columns; behind the last nothing, out of everybody's reach.
+struct LayerRows {
+    CellGridView grid;
+    const std::int32_t* list;
+    MirroredView points;
+    const double* spacing;
+    SortedView<4> rows;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        if (k >= grid.entries) return rows.put(k, {1e30, 0, 0, 0});
+        const std::int64_t point = list[grid.index[k]];
+        rows.put(k, {points.place[0][point], points.place[1][point], points.place[2][point] + grid.shift[k], spacing[points.particle(point)]});
+    }
 };
 
-Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, std::int64_t looks) {
+/// Kept between steps for its memory; contact is not re-entrant.
+struct Prepared {
+    Mirrored points;
+    ChosenPoints chosen[layers];
+    Sorted<4> columns[layers];
+};
+
+Side side(const FluidBody& b, FluidForces& f, Prepared& sorted, double largest, std::int64_t looks) {
     sorted.points.build(b, largest);
     Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, sorted.points.view(), {}};
     const MirroredView points = s.points;
@@ -62,7 +82,10 @@ Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, st
         if (count > 0) {
             const double widest = exec::launch_max(count, 0.0, BRISANCE_KERNEL(std::int64_t m) { return spacing[points.particle(list[m])]; });
             sorted.chosen[k].build(points.place[0], points.place[1], points.place[2], count, widest, largest, b.z_low, b.period, looks);
-            s.layer[k] = {sorted.chosen[k].view(), list, widest};
+            const RingMapView& map = sorted.chosen[k].view();
+            const SortedView<4> rows = sorted.columns[k].room(map.grid.entries);
+            exec::launch(map.grid.entries + width, LayerRows{map.grid, list, points, spacing, rows}, 1024);
+            s.layer[k] = {map, list, rows, widest};
         }
         above = below;
         below *= 2;
@@ -75,46 +98,57 @@ struct NodeKernel {
     Side me, other;
     ContactOptions o;
     BRISANCE_HD Touched operator()(std::int64_t i) const {
-        const FluidView &p = me.body, &q = other.body;
+        const FluidView& p = me.body;
         Touched local;
         double f[3] = {0, 0, 0};
         for (const Layer& layer : other.layer) {
             const double reach = 0.5 * (me.spacing[i] + layer.widest);
             const CellGridView& grid = layer.map.grid;
             if (grid.entries == 0 || layer.map.bound(p.x[0][i], p.x[1][i], p.x[2][i]) >= reach) continue;
+            const V x = broadcast<V>(p.x[0][i]), y = broadcast<V>(p.x[1][i]), z = broadcast<V>(p.x[2][i]), half = broadcast<V>(0.5 * me.spacing[i]);
             grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], reach, [&](std::int64_t first, std::int64_t last) {
-                for (std::int64_t k = first; k < last; ++k) {
-                    const std::int64_t point = layer.points[grid.index[k]], j = other.points.particle(point);
-                    const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
-                                 dz = p.x[2][i] - other.points.place[2][point] - grid.shift[k];
-                    const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.spacing[i] + other.spacing[j]);
-                    if (r2 >= d * d || r2 < 1e-24) continue;
-                    const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
-                    const double m_star = series(p.mass[i], q.mass[j]);
-                    const double stiffness = o.stiffness * std::max(4 * series(me.modulus[i], other.modulus[j]) * d, hardest(m_star, o));
-                    // progressive: k (1 + 3 (overlap/d)^2)
-                    const double spring = stiffness * overlap * (1 + 3 * deep * deep);
-                    const auto velocity = [&](int axis) { return p.v_now[axis][i] - other.points.sign(point, axis) * q.v_now[axis][j]; };
-                    const double vn = (velocity(0) * dx + velocity(1) * dy + velocity(2) * dz) / r;
-                    const double force = std::max(spring - 2 * o.damping * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
-                    f[0] += force * dx;
-                    f[1] += force * dy;
-                    f[2] += force * dz;
-                    local.stored += 0.5 * stiffness * overlap * overlap * (1 + 1.5 * deep * deep);
-                    local.overlap = std::max(local.overlap, overlap);
-                    ++local.touching;
+                for (std::int64_t q = first; q < last; q += width) {
+                    const V dx = x - layer.near(0, q), dy = y - layer.near(1, q), dz = z - layer.near(2, q), d = half + 0.5 * layer.near(3, q);
+                    unsigned close = lane_bits((dx * dx + dy * dy + dz * dz < (1 + 1e-12) * d * d) & lanes_before<V>(q, last));
+                    for (std::int64_t k = q; close; ++k, close >>= 1)
+                        if (close & 1) touch(i, layer, k, f, local);
                 }
             });
         }
         for (int a = 0; a < 3; ++a) me.f[a][i] += f[a];
         return local;
     }
+
+private:
+    /// Particle i and entry k of a layer of the other side.
+    BRISANCE_HD void touch(std::int64_t i, const Layer& layer, std::int64_t k, double (&f)[3], Touched& local) const {
+        const FluidView &p = me.body, &q = other.body;
+        const std::int64_t point = layer.points[layer.map.grid.index[k]], j = other.points.particle(point);
+        const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
+                     dz = p.x[2][i] - other.points.place[2][point] - layer.map.grid.shift[k];
+        const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.spacing[i] + other.spacing[j]);
+        if (r2 >= d * d || r2 < 1e-24) return;
+        const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
+        const double m_star = series(p.mass[i], q.mass[j]);
+        const double stiffness = o.stiffness * std::max(4 * series(me.modulus[i], other.modulus[j]) * d, hardest(m_star, o));
+        // progressive: k (1 + 3 (overlap/d)^2)
+        const double spring = stiffness * overlap * (1 + 3 * deep * deep);
+        const auto velocity = [&](int axis) { return p.v_now[axis][i] - other.points.sign(point, axis) * q.v_now[axis][j]; };
+        const double vn = (velocity(0) * dx + velocity(1) * dy + velocity(2) * dz) / r;
+        const double force = std::max(spring - 2 * damping_ratio(p.rho_now[i], q.rho_now[j], o) * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
+        f[0] += force * dx;
+        f[1] += force * dy;
+        f[2] += force * dz;
+        local.stored += 0.5 * stiffness * overlap * overlap * (1 + 1.5 * deep * deep);
+        local.overlap = std::max(local.overlap, overlap);
+        ++local.touching;
+    }
 };
 
 }  // namespace
 
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
-    static Sorted sorted[2];
+    static Prepared sorted[2];
     const double largest = std::max(fa.largest_spacing, fb.largest_spacing);
     const Side sides[2] = {side(a, fa, sorted[0], largest, b.size()), side(b, fb, sorted[1], largest, a.size())};
     ContactReport report;

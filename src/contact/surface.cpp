@@ -12,22 +12,37 @@ namespace brisance {
 template <class R>
 Surface make_surface(const SolidBody<R>& b) {
     Surface s;
-    for (std::size_t c = 0; c < b.layout.columns.size(); ++c) {
+    s.density = b.material.density;
+    const double dz = b.layout.dz;
+    const auto add = [&](std::size_t c, int k, double face, double area, double offset, double depth) {
         const Column& column = b.layout.columns[c];
-        if (column.wall_layer != 0) continue;
-        for (int k = 0; k < column.layers; ++k) {
-            const std::int64_t slot = column.start + k;
-            if (!(b.layout.flags[static_cast<std::size_t>(slot)] & slot_own)) continue;
-            s.slot.push_back(slot);
-            s.column.push_back(static_cast<std::int32_t>(c));
-            s.mass.push_back(b.mass(column));
-            s.area.push_back(column.wall_length * b.layout.dz);
-            s.spacing.push_back(column.spacing);
-            s.dz.push_back(b.layout.dz);
-            s.depth.push_back(3 * column.wall_distance);
-            s.modulus.push_back(b.material.longitudinal_modulus());
-            s.z_reference.push_back(column.z0 + k * b.layout.dz);
-        }
+        s.slot.push_back(column.start + k);
+        s.column.push_back(static_cast<std::int32_t>(c));
+        s.mass.push_back(b.mass(column));
+        s.area.push_back(area);
+        s.spacing.push_back(column.spacing);
+        s.dz.push_back(dz);
+        s.offset.push_back(offset);
+        s.depth.push_back(depth);
+        s.face.push_back(face);
+        s.modulus.push_back(b.material.longitudinal_modulus());
+        s.z_reference.push_back(column.z0 + k * dz);
+    };
+    // every particle of a kind, with the layer it is in
+    const auto each = [&](std::uint8_t kind, auto&& use) {
+        for (std::size_t c = 0; c < b.layout.columns.size(); ++c)
+            for (int k = 0; k < b.layout.columns[c].layers; ++k)
+                if (b.layout.flags[static_cast<std::size_t>(b.layout.columns[c].start + k)] & kind) use(c, b.layout.columns[c], k);
+    };
+    each(slot_own, [&](std::size_t c, const Column& column, int k) {
+        if (column.wall_layer == 0) add(c, k, 0, column.wall_length * dz, column.wall_distance, 3 * column.wall_distance);
+    });
+    s.sides = s.upper = s.size();
+    if (!b.layout.periodic) {
+        const auto below = [&](const Column& column) { return std::clamp(column.z0 - b.layout.z_low, 0.0, dz); };
+        each(slot_high, [&](std::size_t c, const Column& column, int k) { add(c, k, 1, column.area, dz - below(column), 1.5 * dz); });
+        s.upper = s.size();
+        each(slot_low, [&](std::size_t c, const Column& column, int k) { add(c, k, -1, column.area, below(column), 1.5 * dz); });
     }
     for (std::size_t i = 0; i < s.size(); ++i) s.coarsest = std::max({s.coarsest, s.spacing[i], s.dz[i]});
     for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz, &s.ix, &s.iy, &s.iz, &s.jx, &s.jy, &s.jz}) a->assign(s.size(), 0);
@@ -47,7 +62,8 @@ struct FollowKernel {
         const Column& column = b.columns[s.column[p]];
         const bool live = b.live[slot] > R(0);
         const Mat3<double> f = deformation_gradient(b, pairs, s.column[p], slot);
-        const Vec3<double> normal{column.wall_normal_x, column.wall_normal_y, 0};
+        const double face = s.face[p];
+        const Vec3<double> normal = face == 0 ? Vec3<double>{column.wall_normal_x, column.wall_normal_y, 0} : Vec3<double>{0, 0, face};
         Vec3<double> n = cofactor(f) * normal;
         double length = norm(n), jacobian = det(f);
         if (!live || !(length > 0.2 && length < 5 && jacobian > 0.2 && jacobian < 5) || dot(n, normal) < 0.3 * length) {
@@ -55,8 +71,8 @@ struct FollowKernel {
             length = jacobian = 1;
         }
         // A torn particle is no wall: debris in the midst of gas would be pushed from one side only. Its neighbours on the wall cover its place.
-        s.area[p] = live ? column.wall_length * b.dz : 0.0;
-        const double delta = column.wall_distance * std::clamp(jacobian / length, 0.5, 1.5);
+        s.area[p] = !live ? 0.0 : face == 0 ? column.wall_length * b.dz : column.area;
+        const double delta = s.offset[p] * std::clamp(jacobian / length, 0.5, 1.5);
         const double normal_now[3] = {n.x / length, n.y / length, n.z / length}, at_rest[3] = {column.x, column.y, s.z_reference[p]};
         double* const place[3] = {s.x, s.y, s.z};
         for (int k = 0; k < 3; ++k) {
@@ -108,14 +124,19 @@ void push(const Surface& surface, SolidBody<R>& body, double kick) {
     const SurfaceView s = view(surface);
     const SolidView<R> b = view(body);
     const bool pairwise = body.options.pairwise;
-    exec::launch(s.size, BRISANCE_KERNEL(std::int64_t p) {
-        const std::int64_t slot = s.slot[p];
-        for (int k = 0; k < 3; ++k) {
-            const double gained = s.i[k][p] / s.mass[p];
-            b.v[k][slot] += static_cast<R>(gained);
-            if (pairwise) b.acceleration[k][slot] += static_cast<R>(gained / kick);
-        }
-    }, 1024);
+    // a particle at an edge has a point on each of its walls: one kind after the other
+    const std::int64_t kinds[] = {0, s.sides, s.upper, s.size};
+    for (int kind = 0; kind < 3; ++kind) {
+        const std::int64_t first = kinds[kind];
+        exec::launch(kinds[kind + 1] - first, BRISANCE_KERNEL(std::int64_t n) {
+            const std::int64_t p = first + n, slot = s.slot[p];
+            for (int k = 0; k < 3; ++k) {
+                const double gained = s.i[k][p] / s.mass[p];
+                b.v[k][slot] += static_cast<R>(gained);
+                if (pairwise) b.acceleration[k][slot] += static_cast<R>(gained / kick);
+            }
+        }, 1024);
+    }
 }
 
 template <class R>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/chosen_points.h"
+#include "contact/sorted_columns.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 #include "math/kernel.h"
@@ -20,6 +21,7 @@ constexpr int width = lanes<double>;
 /// The nodes of one side: particles of a fluid, or points of another wall.
 struct Nodes {
     const double *x[3], *v[3], *mass, *modulus;
+    const double* rho;              ///< of a fluid's particles; null for a wall
     const double* kappa;            ///< spacing of a fluid's particles; null for a wall
     const double *wall_area, *wall_spacing;
     const double* normal[3];        ///< points of a wall have normals, and touch only walls that face them
@@ -34,34 +36,9 @@ struct Nodes {
     BRISANCE_HD double hard(std::int64_t i, const ContactOptions& o) const { return kappa ? hardest(mass[i], o) : 0.0; }
 };
 
-/// What node i feels of the wall: force and the normaliser of its weights.
+/// What node i feels of the wall: force, the normaliser of its weights, and the kind of points that they belong to.
 struct Touch {
-    double fx, fy, fz, weights, stored, overlap;
-};
-
-/// Columns of numbers in the order of a grid's entries, with a pack of room behind the last.
-template <int n>
-struct SortedView {
-    double* columns[n];
-    BRISANCE_HD V operator()(int c, std::int64_t k) const { return load<V>(columns[c] + k); }
-    BRISANCE_HD void put(std::int64_t k, const double (&row)[n]) const {
-        for (int c = 0; c < n; ++c) columns[c][k] = row[c];
-    }
-};
-template <int n>
-class Sorted {
-public:
-    SortedView<n> room(std::int64_t entries) {
-        SortedView<n> v;
-        for (std::size_t c = 0; c < n; ++c) {
-            make_room(columns_[c], static_cast<std::size_t>(entries + width));
-            v.columns[c] = columns_[c].data();
-        }
-        return v;
-    }
-
-private:
-    std::array<Array<double>, n> columns_;
+    double fx, fy, fz, weights, face, stored, overlap;
 };
 
 /// A point of the wall, or a pack of them: place, normal, shape of its kernel, and how far behind it a node is still pushed back.
@@ -93,17 +70,17 @@ struct Extent {
     }
 };
 
-/// Row k of the wall's columns: place 0-2, normal 3-5, spacing, dz, depth, area 6-9, velocity 10-12, modulus 13.
+/// Row k of the wall's columns: place 0-2, normal 3-5, spacing, dz, depth, area 6-9, velocity 10-12, modulus 13, face 14.
 struct WallRows {
     SurfaceView wall;
     const std::int32_t* active;
     CellGridView grid;
-    SortedView<14> rows;
+    SortedView<15> rows;
     BRISANCE_HD void operator()(std::int64_t k) const {
         if (k >= grid.entries) return rows.put(k, {0});
         const std::int32_t j = active[grid.index[k]];
         rows.put(k, {wall.x[j],  wall.y[j],     wall.z[j] + grid.shift[k], wall.n[0][j], wall.n[1][j], wall.n[2][j], wall.spacing[j],
-                     wall.dz[j], wall.depth[j], wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j]});
+                     wall.dz[j], wall.depth[j], wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j], wall.face[j]});
     }
 };
 
@@ -111,8 +88,9 @@ struct WallRows {
 struct WallKernel {
     Nodes nodes;
     RingMapView map;
-    SortedView<14> w;
+    SortedView<15> w;
     Extent extent;
+    double density;   ///< of the wall, g/cm3
     ContactOptions o;
     Touch* touch;
 
@@ -123,10 +101,52 @@ struct WallKernel {
     }
 
 private:
+    /// The weighted plane of the points of one kind; without weights where the node is beside it.
+    struct Plane {
+        double weights = 0, gap = 0, modulus = 0, face = 0;
+        Vec3<double> normal, velocity;
+    };
+    /// `others`: set where there are points of another kind in reach.
+    BRISANCE_HD Plane seen(std::int64_t i, const Vec3<V>& at, double face, bool& others) const {
+        const double reached = nodes.radius(i);
+        V weights{}, gaps{}, modulus{}, sizes{};
+        Vec3<V> normals, velocities, besides;
+        map.grid.ranges(nodes.x[0][i], nodes.x[1][i], nodes.x[2][i], extent.reach(reached), [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t q = first; q < last; q += width) {
+                const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
+                const V facing = nodes.normal[0] ? nodes.normal[0][i] * s.normal.x + nodes.normal[1][i] * s.normal.y + nodes.normal[2][i] * s.normal.z : broadcast<V>(-1.0);
+                V gap;
+                const V all = weight(s, at, broadcast<V>(reached), facing, gap), any = lanes_before<V>(q, last) ? all : V{};
+                const V omega = w(14, q) == face ? any : V{};
+                others = others || any_lane(any > omega);
+                weights += omega;
+                gaps += omega * gap;
+                normals = normals + omega * s.normal;
+                velocities = velocities + omega * Vec3<V>{w(10, q), w(11, q), w(12, q)};
+                besides = besides + omega * (at - s.at);
+                sizes += omega * (face == 0 ? s.dz : s.spacing);
+                modulus += omega * w(13, q);
+            }
+        });
+        Plane plane;
+        plane.weights = hsum(weights);
+        if (!(plane.weights > 0)) return plane;
+        const double per = 1 / plane.weights;
+        // The last points of a wall are half a spacing from where it ends: seen from there their middle is half a spacing away.
+        const double x = hsum(besides.x), y = hsum(besides.y), beside = face == 0 ? std::abs(hsum(besides.z)) : std::sqrt(x * x + y * y);
+        if (beside > 0.75 * hsum(sizes)) return {};
+        const Vec3<double> normal{hsum(normals.x), hsum(normals.y), hsum(normals.z)};
+        plane.gap = per * hsum(gaps);
+        plane.modulus = per * hsum(modulus);
+        plane.face = face;
+        plane.normal = (1 / norm(normal)) * normal;
+        plane.velocity = per * Vec3<double>{hsum(velocities.x), hsum(velocities.y), hsum(velocities.z)};
+        return plane;
+    }
     BRISANCE_HD void feel(std::int64_t i, Touch& t) const {
         const double x = nodes.x[0][i], y = nodes.x[1][i], z = nodes.x[2][i], reached = nodes.radius(i);
         const Vec3<V> at{broadcast<V>(x), broadcast<V>(y), broadcast<V>(z)};
-        const double near = extent.near(reached), reach = extent.reach(reached);
+        const double near = extent.near(reached);
         // most nodes are far from the wall: is any point of it near, with the node not well in front?
         if (map.bound(x, y, z) >= near) return;
         bool close = false;
@@ -138,34 +158,22 @@ private:
             }
         });
         if (!close) return;
-        V weights{}, gaps{}, modulus{};
-        Vec3<V> normals, velocities;
-        map.grid.ranges(x, y, z, reach, [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t q = first; q < last; q += width) {
-                const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
-                const V facing = nodes.normal[0] ? nodes.normal[0][i] * s.normal.x + nodes.normal[1][i] * s.normal.y + nodes.normal[2][i] * s.normal.z : broadcast<V>(-1.0);
-                V gap;
-                const V all = weight(s, at, broadcast<V>(reached), facing, gap), omega = lanes_before<V>(q, last) ? all : V{};
-                weights += omega;
-                gaps += omega * gap;
-                normals = normals + omega * s.normal;
-                velocities = velocities + omega * Vec3<V>{w(10, q), w(11, q), w(12, q)};
-                modulus += omega * w(13, q);
+        // at an edge, as the rim of a borehole, a node is outside of the face that it is farther in front of
+        bool ends = false;
+        Plane plane = seen(i, at, 0, ends);
+        if (ends)
+            for (const double face : {1.0, -1.0}) {
+                const Plane end = seen(i, at, face, ends);
+                if (end.weights > 0 && (!(plane.weights > 0) || end.gap > plane.gap)) plane = end;
             }
-        });
-        t.weights = hsum(weights);
-        if (!(t.weights > 0)) return;
-        const double overlap = reached - hsum(gaps) / t.weights;
-        if (!(overlap > 0)) {
-            t.weights = 0;
-            return;
-        }
-        const Vec3<double> sum{hsum(normals.x), hsum(normals.y), hsum(normals.z)}, normal = (1 / norm(sum)) * sum;
-        const Vec3<double> wall_velocity = (1 / t.weights) * Vec3<double>{hsum(velocities.x), hsum(velocities.y), hsum(velocities.z)};
-        const Vec3<double> relative = Vec3<double>{nodes.v[0][i], nodes.v[1][i], nodes.v[2][i]} - wall_velocity;
+        const double overlap = reached - plane.gap;
+        if (!(plane.weights > 0 && overlap > 0)) return;
+        t.weights = plane.weights;
+        t.face = plane.face;
+        const Vec3<double> normal = plane.normal, relative = Vec3<double>{nodes.v[0][i], nodes.v[1][i], nodes.v[2][i]} - plane.velocity;
         const double approach = dot(relative, normal);
-        const double k = o.stiffness * std::max(series(nodes.modulus[i], hsum(modulus) / t.weights) * nodes.area(i) / nodes.length(i), nodes.hard(i, o));
-        const double damping = 2 * o.damping * std::sqrt(k * nodes.mass[i]);
+        const double k = o.stiffness * std::max(series(nodes.modulus[i], plane.modulus) * nodes.area(i) / nodes.length(i), nodes.hard(i, o));
+        const double ratio = nodes.rho ? damping_ratio(nodes.rho[i], density, o) : o.damping, damping = 2 * ratio * std::sqrt(k * nodes.mass[i]);
         // progressive up to where the node stands on the wall: k (1 + (overlap/radius)^2), then 2 k
         const double deep = reached > 0 ? std::min(overlap / reached, 1.0) : 0.0, spring = k * overlap * (1 + deep * deep);
         const double force = std::max(spring - damping * approach, 0.0);
@@ -197,20 +205,20 @@ struct Touched {
     }
 };
 
-/// Row k of the touching nodes' columns: place 0-2, radius 3, normal 4-6, force over the sum of weights 7-9.
+/// Row k of the touching nodes' columns: place 0-2, radius 3, normal 4-6, force over the sum of weights 7-9, face 10.
 struct NodeRows {
     Nodes nodes;
     const std::int32_t* touching;
     const Touch* touch;
     CellGridView grid;
-    SortedView<10> rows;
+    SortedView<11> rows;
     BRISANCE_HD void operator()(std::int64_t k) const {
         if (k >= grid.entries) return rows.put(k, {0});
         const std::int32_t i = touching[grid.index[k]];
         const Touch& t = touch[i];
         const bool faces = nodes.normal[0] != nullptr;
         rows.put(k, {nodes.x[0][i], nodes.x[1][i], nodes.x[2][i] + grid.shift[k], nodes.radius(i), faces ? nodes.normal[0][i] : 0.0, faces ? nodes.normal[1][i] : 0.0,
-                     faces ? nodes.normal[2][i] : 0.0, t.fx / t.weights, t.fy / t.weights, t.fz / t.weights});
+                     faces ? nodes.normal[2][i] : 0.0, t.fx / t.weights, t.fy / t.weights, t.fz / t.weights, t.face});
     }
 };
 
@@ -219,7 +227,7 @@ struct ReactionKernel {
     SurfaceView wall;
     const std::int32_t* active;
     RingMapView map;
-    SortedView<10> p;
+    SortedView<11> p;
     double reach;
     bool faces;
     BRISANCE_HD void operator()(std::int64_t m) const {
@@ -233,7 +241,7 @@ struct ReactionKernel {
             for (std::int64_t q = first; q < last; q += width) {
                 const V facing = faces ? p(4, q) * s.normal.x + p(5, q) * s.normal.y + p(6, q) * s.normal.z : broadcast<V>(-1.0);
                 V gap;
-                const V all = weight(s, {p(0, q), p(1, q), p(2, q)}, p(3, q), facing, gap), omega = lanes_before<V>(q, last) ? all : V{};
+                const V all = weight(s, {p(0, q), p(1, q), p(2, q)}, p(3, q), facing, gap), omega = lanes_before<V>(q, last) & (p(10, q) == wall.face[j]) ? all : V{};
                 f = f + omega * Vec3<V>{p(7, q), p(8, q), p(9, q)};
             }
         });
@@ -246,8 +254,8 @@ struct ReactionKernel {
 ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOptions& o, double z_low, double period) {
     // kept between steps for their memory; contact is not re-entrant
     static ChosenPoints active_points, touching_nodes;
-    static Sorted<14> wall_columns;
-    static Sorted<10> node_columns;
+    static Sorted<15> wall_columns;
+    static Sorted<11> node_columns;
     static Array<Touch> touches;
 
     const SurfaceView wall = view(surface);
@@ -255,7 +263,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     // only the part of the wall that the nodes can meet: a rim far away has coarser points and would widen the search
     const PointBox box = box_of(nodes.x[0], nodes.x[1], nodes.x[2], nodes.n);
     std::int32_t* const active = active_points.list(wall.size);
-    const std::int64_t count = exec::select(wall.size, BRISANCE_KERNEL(std::int64_t j) {
+    const std::int64_t count = exec::select(nodes.kappa ? wall.size : wall.sides, BRISANCE_KERNEL(std::int64_t j) {
         return box.beside(wall.x[j], wall.y[j], radius + wall.depth[j] + 2 * wall.spacing[j]);
     }, BRISANCE_KERNEL(std::int64_t j, std::int64_t k) { active[k] = static_cast<std::int32_t>(j); });
     if (count == 0) return {};
@@ -266,12 +274,12 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     // cells for nodes of usual size; few gas particles have expanded far, and they look into more cells
     active_points.build(wall.x, wall.y, wall.z, count, 0.5 * extent.reach(0), extent.reach(radius), z_low, period, nodes.n);
     const CellGridView walls = active_points.view().grid;
-    const SortedView<14> w = wall_columns.room(walls.entries);
+    const SortedView<15> w = wall_columns.room(walls.entries);
     exec::launch(walls.entries + width, WallRows{wall, active, walls, w}, 1024);
 
     make_room(touches, static_cast<std::size_t>(nodes.n));
     Touch* const touch = touches.data();
-    exec::launch(nodes.n, WallKernel{nodes, active_points.view(), w, extent, o, touch});
+    exec::launch(nodes.n, WallKernel{nodes, active_points.view(), w, extent, surface.density, o, touch});
 
     std::int32_t* const touching = touching_nodes.list(nodes.n);
     ContactReport report;
@@ -288,7 +296,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     const double reach = extent.reach(touched.radius);
     touching_nodes.build(nodes.x[0], nodes.x[1], nodes.x[2], report.touching, 0.5 * reach, reach, z_low, period, count);
     const CellGridView points = touching_nodes.view().grid;
-    const SortedView<10> p = node_columns.room(points.entries);
+    const SortedView<11> p = node_columns.room(points.entries);
     exec::launch(points.entries + width, NodeRows{nodes, touching, touch, points, p}, 1024);
     exec::launch(count, ReactionKernel{wall, active, touching_nodes.view(), p, reach, nodes.normal[0] != nullptr});
     return report;
@@ -298,14 +306,14 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
 
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
     const FluidView b = view(a);
-    const Nodes n{{b.x[0], b.x[1], b.x[2]}, {b.v_now[0], b.v_now[1], b.v_now[2]}, b.mass, fa.modulus.data(), fa.spacing.data(), nullptr, nullptr, {},
+    const Nodes n{{b.x[0], b.x[1], b.x[2]}, {b.v_now[0], b.v_now[1], b.v_now[2]}, b.mass, fa.modulus.data(), b.rho_now, fa.spacing.data(), nullptr, nullptr, {},
                   {fa.fx.data(), fa.fy.data(), fa.fz.data()}, b.n, 0.5 * fa.largest_spacing};
     return against_wall(n, s, o, z_low, period);
 }
 
 ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
     const SurfaceView s = view(nodes);
-    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, s.size, 0};
+    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, s.sides, 0};
     return against_wall(n, wall, o, z_low, period);
 }
 

@@ -48,6 +48,7 @@ struct Columns {
     Array<Tile> tiles;
     Array<std::uint8_t> flags;  ///< by slot
     double dz = 0;              ///< mm
+    double z_low = 0;           ///< layer k stands for z_low + k dz ... z_low + (k+1) dz, wherever in it its particle is, mm
     bool periodic = false;      ///< layers repeat with period layers * dz (all columns alike)
     int width = 8;              ///< lanes of a tile
     int pad = 3;                ///< largest offset along a column

@@ -92,6 +92,28 @@ TEST(Boundary, PlatensReturnWhatHitsThem) {
     EXPECT_LT(water, 0.25 * 0.3 * 27);  // much of it has splashed sideways
 }
 
+TEST(Boundary, APlatenLeavesAtRestWhatRestsOnIt) {
+    // columns start at any height above the plane where they end
+    FluidPart f = fluid(library("water"), {}, {0.5, 4, 4, 4, 0, 0, 0, false});
+    FluidBody& b = f.body;
+    Random random(3);
+    for (std::size_t i = 0; i < b.mass.size(); ++i) {
+        const double phase = random.uniform(-0.24, 0.24);
+        b.x[2][i] += phase;
+        b.reference[2][i] = b.x[2][i];
+    }
+    make_ready(f);
+    const Platen plane{{0, 0, 0}, {0, 0, -1}};
+    EXPECT_EQ(press(plane, b, f.forces).touching, 0);
+    for (double& z : b.x[2]) z -= 0.01;
+    const ContactReport r = press(plane, b, f.forces);
+    // those of the lowest layer that stood no farther than half their spacing from it
+    EXPECT_EQ(r.touching, std::count_if(b.reference[2].begin(), b.reference[2].end(), [](double z) { return z < 0.25 + 0.01; }));
+    EXPECT_GT(r.touching, 4);
+    EXPECT_NEAR(r.penetration, 0.01, 1e-12);
+    for (std::size_t i = 0; i < b.mass.size(); ++i) EXPECT_GE(f.forces.fz[i], 0);
+}
+
 TEST(Boundary, PressureInAHolePushesEvenly) {
     const double inner = 3, p = 0.1;
     for (const double growth : {0.0, 0.02, 0.05}) {

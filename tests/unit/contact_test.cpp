@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact: reactions, clearance, tightness, and the shared state of two materials that meet.
 #include "core_helpers.h"
+#include "geometry/placement.h"
 
 using namespace brisance;
 using namespace brisance::core_test;
@@ -122,6 +123,82 @@ TEST(Contact, GasThatHasExpandedTouchesAllThatItReaches) {
     }
     EXPECT_EQ(r.touching, touching);
     EXPECT_LT(worst, 1e-12 * force);
+}
+
+TEST(Contact, GasBetweenClosingWallsTakesTheirSpeedAndNoMore) {
+    // One light particle thrown to and fro between two heavy ones that close with u each: a ball with restitution e = 0.85 (damping 0.05)
+    // would go on to 12 u.
+    FluidPart wall = fluid(library("water"), {}, {0.2, 2, 1, 1, -0.4, 0, 0, false});
+    FluidPart gas = fluid(library("air_paper"), {}, {0.2, 1, 1, 1, 0, 0, 0, false});
+    FluidBody &w = wall.body, &g = gas.body;
+    const double u = 1, dt = 2e-4;
+    w.x[0] = {-6.0, 6.0};
+    for (std::size_t a : {1u, 2u}) w.x[a] = {g.x[a][0], g.x[a][0]};
+    g.x[0][0] = 0;
+    g.v[0][0] = 2 * u;
+    w.v[0] = {u, -u};
+    for (FluidPart* p : {&wall, &gas}) make_ready(*p);
+    ContactOptions o;
+    o.dt = dt;
+    double fastest = 0;
+    int bounces = 0;
+    for (int n = 0; n * dt * u < 5.7; ++n) {
+        for (std::size_t k : {0u, 1u}) w.x[0][k] += dt * w.v_now[0][k];
+        for (FluidPart* p : {&wall, &gas}) p->forces.begin(p->body);
+        node_contact(gas.body, wall.body, o, gas.forces, wall.forces);
+        const double before = g.v[0][0];
+        g.v[0][0] += dt * gas.forces.fx[0] / g.mass[0];
+        g.x[0][0] += dt * g.v[0][0];
+        g.v_now[0][0] = g.v[0][0] + 0.5 * dt * gas.forces.fx[0] / g.mass[0];
+        if (before * g.v[0][0] < 0) ++bounces;
+        fastest = std::max(fastest, std::abs(g.v[0][0]));
+    }
+    EXPECT_GT(bounces, 4);
+    EXPECT_GT(fastest, u);        // the wall that comes takes it along
+    EXPECT_LT(fastest, 3.5 * u);  // (1 + e)/(1 - e) = 2.6, and what the progressive spring adds
+}
+
+TEST(Contact, AtTheEndsOfASolidTheRightFacePushes) {
+    // a disc of granite from z = 0 to 8 with a hole of radius 3, through it or down to z = 4
+    const ShapePtr disc = make_cylinder({0, 0, 0}, {0, 0, 8}, 8);
+    constexpr double reach = 0.15;  // of a particle of water
+    const struct { double bottom, r, z; Vec3<double> push; const char* where; } probes[] = {
+        {-1, 4.2, 8 + 0.5 * reach, {0, 0, 1}, "on the top"},
+        {-1, 4.2, -0.5 * reach, {0, 0, -1}, "under the bottom"},
+        {-1, 3.4, 8 + 0.5 * reach, {0, 0, 1}, "on the top beside the rim: not behind the wall of the hole"},
+        {-1, 3.4, 8 + 3 * reach, {0, 0, 0}, "above the rim"},
+        {-1, 2.0, 8 + 0.5 * reach, {0, 0, 0}, "over the hole"},
+        {-1, 2.0, 7.9, {0, 0, 0}, "in the hole"},
+        {-1, 3 - 0.5 * reach, 6.5, {-1, 0, 0}, "at the wall of the hole"},
+        {-1, 3 - 0.5 * reach, 7.8, {-1, 0, 0}, "at the wall of the hole, near its rim"},
+        {4, 1.5, 4 + 0.5 * reach, {0, 0, 1}, "on the bottom of a blind hole"},
+    };
+    for (const auto& probe : probes) {
+        const ShapePtr hole = make_cylinder({0, 0, probe.bottom}, {0, 0, 9}, 3);
+        PlacementOptions o;
+        o.spacing = o.spacing_z = 0.5;
+        o.z_phase = false;
+        const Placement placed = place(*disc, {hole}, o);
+        SolidPart<double> s = solid(elastic_granite(), {}, placed.columns, placed.dz, false, [&](const Column& c, int k) {
+            const Point at{c.x, c.y, (k + 0.5) * placed.dz};
+            return disc->contains(at) && !hole->contains(at);
+        });
+        respond_to(s);
+        follow(s.surface, s.body, s.pairs, 0);
+        FluidPart f = disturbed_water({2 * reach, 1, 1, 1, probe.r - reach, -reach, probe.z - reach, false}, 0, 1, 0);
+        wall_contact(f.body, s.surface, {}, 0, 0, f.forces);
+        const Vec3<double> force{f.forces.fx[0], f.forces.fy[0], f.forces.fz[0]};
+        if (norm(probe.push) == 0) {
+            EXPECT_EQ(norm(force), 0) << probe.where;
+            continue;
+        }
+        EXPECT_GT(norm(force), 0) << probe.where;
+        EXPECT_GT(dot(force, probe.push), 0.9 * norm(force)) << probe.where;
+        Total t;
+        t.add(f.forces.fx, f.forces.fy, f.forces.fz);
+        t.add(s.surface.fx, s.surface.fy, s.surface.fz);
+        t.expect_none();
+    }
 }
 
 TEST(Contact, ReactionEqualsActionAtAWall) {

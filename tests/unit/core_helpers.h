@@ -62,6 +62,8 @@ SolidPart<R> solid(const Material& material, const SolidOptions& options, std::v
     Columns& layout = s.body.layout;
     layout.columns.assign(columns.begin(), columns.end());
     layout.dz = dz;
+    layout.z_low = 1e300;
+    for (const Column& c : columns) layout.z_low = std::min(layout.z_low, c.z0 - 0.5 * dz);
     layout.periodic = periodic;
     layout.width = tile_width<R>;
     layout.pad = largest_offset(options.smoothing);
@@ -267,6 +269,14 @@ inline FluidPart fluid(const Material& material, const FluidOptions& options, co
     return f;
 }
 
+/// The state of the start as contact takes it.
+inline void make_ready(FluidPart& f) {
+    f.body.v_now = f.body.v;
+    f.body.rho_now = f.body.rho;
+    f.body.e_now = f.body.e;
+    f.solver.state(f.body, 0);
+    f.forces.begin(f.body);
+}
 /// Water whose particles have been moved by up to `size` mm and given up to `speed` km/s each way, at random.
 inline FluidPart disturbed_water(const FluidBox& box, double size, std::uint64_t seed, double speed = 0.2) {
     FluidPart f = fluid(library("water"), {}, box);
@@ -278,11 +288,7 @@ inline FluidPart disturbed_water(const FluidBox& box, double size, std::uint64_t
         }
     if (f.body.period > 0)
         for (double& z : f.body.x[2]) z -= f.body.period * std::floor((z - f.body.z_low) / f.body.period);
-    f.body.v_now = f.body.v;
-    f.body.rho_now = f.body.rho;
-    f.body.e_now = f.body.e;
-    f.solver.state(f.body, 0);
-    f.forces.begin(f.body);
+    make_ready(f);
     return f;
 }
 

@@ -285,6 +285,14 @@ TEST(MieGruneisen, TensionIsLinearAndTheCutOffHolds) {
     }
 }
 
+TEST(MieGruneisen, APressureOfVapourFallsWithItsDensity) {
+    // twice the heat that pulls all of it apart, C^2/Gamma_0, in 1/10 and 1/1000 of the density
+    const Material m = gruneisen(0.915, 2.901, 1.481, 1.64, 0);
+    const double heat = 2 * 2.901 * 2.901 / 1.64 * 0.915, cold = 0.915 * 2.901 * 2.901;
+    for (const double thin : {0.1, 0.001}) EXPECT_NEAR(m.eos->pressure(thin - 1, heat), -cold * (1 - thin) + 1.64 * 2 * thin * heat, 1e-9);
+    EXPECT_NEAR(m.eos->pressure(-0.5 - 1e-9, heat), m.eos->pressure(-0.5 + 1e-9, heat), 1e-6);
+}
+
 TEST(MieGruneisen, BeyondThePoleItGoesOnAlongTheTangent) {
     // Water: the denominator vanishes at mu = 1/(S - 1) = 1.333; METHOD: stay below 0.95 of it.
     const Material water = library("water");

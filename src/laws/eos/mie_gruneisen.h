@@ -2,6 +2,9 @@
 // Mie-Grueneisen in the form of LS-DYNA's *EOS_GRUNEISEN:
 //   mu > 0:  P = rho_0 C^2 mu [1 + (1 - Gamma_0/2) mu - (a/2) mu^2] / [1 - (S1-1) mu - S2 mu^2/(1+mu) - S3 mu^3/(1+mu)^2]^2 + (Gamma_0 + a mu) E
 //   mu <= 0: P = rho_0 C^2 mu + (Gamma_0 + a mu) E
+// Below half of the initial density the last term is multiplied by 2 rho/rho_0, which LS-DYNA does not do. Without it matter with
+// more than C^2/Gamma_0 of heat (5 kJ/g of a polymer) keeps gigapascals however far it has expanded, and grows ever stiffer; with it the
+// pressure of a vapour falls with its density.
 // With S2 = S3 = 0 this is U_s = C + S1 u_p on the Hugoniot (Eq. 10 of the paper). The pole of the denominator is kept away from:
 // mu is taken no further than where the denominator (before squaring) is 0.05.
 #pragma once
@@ -54,7 +57,9 @@ struct MieGruneisen {
         const V cold = R(k) * x * n * inverse * inverse;
         const V slope = R(k) * ((n + x * dn) * inverse - R(2) * x * n * dd * inverse * inverse) * inverse;
         const V linear = mu - x;                          // tension, or beyond mu_max: go on along the tangent
-        return {cold + slope * linear, R(gamma0) + R(a) * mu, slope, broadcast<V>(R(a))};
+        const V gamma = R(gamma0) + R(a) * mu, thinned = R(2) * (R(1) + mu);
+        const auto vapour = thinned < R(1);
+        return {cold + slope * linear, vapour ? gamma * thinned : gamma, slope, vapour ? R(a) * thinned + R(2) * gamma : broadcast<V>(R(a))};
     }
 
     double k, s1, s2, s3, gamma0, a, e0, cutoff, mu_max;
