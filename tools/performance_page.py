@@ -124,7 +124,7 @@ def stretch():
             f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, which measures the machine for a moment, foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
             f"In the same proportion the 150 µs, which `check` puts at {f['whole_foretold'] / 3600:.1f} h, take {f['whole'] / 3600:.1f}. The fluids decide: a million particles; for the 22 µs of the burn "
             "the charge holds the step, then the thin sheath.",
-            "That is a lower bound: later, gas that has expanded widens the search for contact. In the preset full-coarse contact takes 52 % of the first 14 µs (`--preset full-coarse --until \"14 us\" --set 'step.velocity_limit=\"200 km/s\"'`)."]
+            "That is a lower bound: later, gas that has expanded widens the search for contact. In the preset full-coarse contact takes half of the first 15 µs (`--preset full-coarse --until \"15 us\"`)."]
 
 
 def page():

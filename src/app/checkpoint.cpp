@@ -14,7 +14,7 @@ namespace brisance {
 
 namespace {
 
-constexpr const char* schema = "brisance checkpoint 3";
+constexpr const char* schema = "brisance checkpoint 4";
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;

@@ -12,16 +12,16 @@ namespace brisance {
 
 void FluidForces::begin(const FluidBody& body) {
     const auto n = static_cast<std::size_t>(body.size());
-    for (auto* a : {&fx, &fy, &fz, &spacing, &modulus})
+    for (auto* a : {&fx, &fy, &fz, &spacing, &modulus, &press, &near})
         if (a->size() != n) {
             const exec::HostAccess host;
             a->resize(n);
         }
     const FluidView b = view(body);
-    double *const x = fx.data(), *const y = fy.data(), *const z = fz.data(), *const s = spacing.data(), *const m = modulus.data();
+    double *const x = fx.data(), *const y = fy.data(), *const z = fz.data(), *const s = spacing.data(), *const m = modulus.data(), *const p = press.data(), *const w = near.data();
     const double widest = body.options.h_max * body.spacing;
     largest_spacing = exec::launch_max(b.n, 0.0, BRISANCE_KERNEL(std::int64_t i) {
-        x[i] = y[i] = z[i] = 0;
+        x[i] = y[i] = z[i] = p[i] = w[i] = 0;
         s[i] = std::min(b.current_spacing(i), widest);
         m[i] = std::max(b.rho_now[i] * b.sound[i] * b.sound[i], 1e-9);
         return s[i];

@@ -94,7 +94,9 @@ struct ContactReport {
 struct FluidForces {
     Array<double> fx, fy, fz;          ///< mN
     Array<double> spacing, modulus;    ///< current spacing kappa, mm (no wider than its support may grow), and rho c^2, GPa, of each particle
+    Array<double> press, near;         ///< sums over the fluid that touches a particle: overlap x pressure, and overlap, mm
     double largest_spacing = 0;
+    double heat = 0;                   ///< of what the pressure around does to particles without their own kind (FluidSolver::equalise), W = J/us
     /// No forces, and the spacing and stiffness of the present state.
     void begin(const FluidBody& body);
 };

@@ -39,7 +39,7 @@ constexpr int layers = 4;
 struct Side {
     FluidView body;
     const double *spacing, *modulus;
-    double* f[3];
+    double *f[3], *press, *near;
     MirroredView points;
     Layer layer[layers];
 };
@@ -67,7 +67,7 @@ struct Prepared {
 
 Side side(const FluidBody& b, FluidForces& f, Prepared& sorted, double largest, std::int64_t looks) {
     sorted.points.build(b, largest);
-    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, sorted.points.view(), {}};
+    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, f.press.data(), f.near.data(), sorted.points.view(), {}};
     const MirroredView points = s.points;
     const double* const spacing = s.spacing;
     const std::int64_t n = sorted.points.size();
@@ -100,7 +100,7 @@ struct NodeKernel {
     BRISANCE_HD Touched operator()(std::int64_t i) const {
         const FluidView& p = me.body;
         Touched local;
-        double f[3] = {0, 0, 0};
+        Felt felt;
         for (const Layer& layer : other.layer) {
             const double reach = 0.5 * (me.spacing[i] + layer.widest);
             const CellGridView& grid = layer.map.grid;
@@ -111,17 +111,22 @@ struct NodeKernel {
                     const V dx = x - layer.near(0, q), dy = y - layer.near(1, q), dz = z - layer.near(2, q), d = half + 0.5 * layer.near(3, q);
                     unsigned close = lane_bits((dx * dx + dy * dy + dz * dz < (1 + 1e-12) * d * d) & lanes_before<V>(q, last));
                     for (std::int64_t k = q; close; ++k, close >>= 1)
-                        if (close & 1) touch(i, layer, k, f, local);
+                        if (close & 1) touch(i, layer, k, felt, local);
                 }
             });
         }
-        for (int a = 0; a < 3; ++a) me.f[a][i] += f[a];
+        for (int a = 0; a < 3; ++a) me.f[a][i] += felt.f[a];
+        me.press[i] += felt.press;
+        me.near[i] += felt.near;
         return local;
     }
 
 private:
+    struct Felt {
+        double f[3] = {0, 0, 0}, press = 0, near = 0;
+    };
     /// Particle i and entry k of a layer of the other side.
-    BRISANCE_HD void touch(std::int64_t i, const Layer& layer, std::int64_t k, double (&f)[3], Touched& local) const {
+    BRISANCE_HD void touch(std::int64_t i, const Layer& layer, std::int64_t k, Felt& felt, Touched& local) const {
         const FluidView &p = me.body, &q = other.body;
         const std::int64_t point = layer.points[layer.map.grid.index[k]], j = other.points.particle(point);
         const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
@@ -136,9 +141,11 @@ private:
         const auto velocity = [&](int axis) { return p.v_now[axis][i] - other.points.sign(point, axis) * q.v_now[axis][j]; };
         const double vn = (velocity(0) * dx + velocity(1) * dy + velocity(2) * dz) / r;
         const double force = std::max(spring - 2 * damping_ratio(p.rho_now[i], q.rho_now[j], o) * std::sqrt(stiffness * m_star) * vn, 0.0) / r;
-        f[0] += force * dx;
-        f[1] += force * dy;
-        f[2] += force * dz;
+        felt.f[0] += force * dx;
+        felt.f[1] += force * dy;
+        felt.f[2] += force * dz;
+        felt.press += overlap * q.pressure[j];
+        felt.near += overlap;
         local.stored += 0.5 * stiffness * overlap * overlap * (1 + 1.5 * deep * deep);
         local.overlap = std::max(local.overlap, overlap);
         ++local.touching;

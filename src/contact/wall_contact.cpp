@@ -60,9 +60,10 @@ BRISANCE_HD inline V weight(const WallPoint& s, const Vec3<V>& node, V radius, V
 /// Of the points of the wall that nodes can meet.
 struct Extent {
     double coarsest = 0, deepest = 0;
-    /// How far in front of or behind the wall a node can be that it touches, and with the tangential reach.
-    BRISANCE_HD double near(double radius) const { return std::max(deepest, radius) + coarsest; }
-    BRISANCE_HD double reach(double radius) const { return 2 * coarsest + std::max(deepest, radius + coarsest); }
+    /// How far a node can be from the nearest point of a wall that it touches, and from all that its plane is made of.
+    BRISANCE_HD double near(double radius) const { return diagonal(coarsest, std::max(deepest, radius)); }
+    BRISANCE_HD double reach(double radius) const { return diagonal(2 * coarsest, std::max(deepest, radius + coarsest)); }
+    BRISANCE_HD static double diagonal(double along, double across) { return std::sqrt(along * along + across * across); }
     BRISANCE_HD Extent& operator+=(const Extent& o) {
         coarsest = std::max(coarsest, o.coarsest);
         deepest = std::max(deepest, o.deepest);

@@ -104,6 +104,7 @@ void each_field(World<R>& w, V&& visit) {
         visit(at + "force.x", f.forces.fx);
         visit(at + "force.y", f.forces.fy);
         visit(at + "force.z", f.forces.fz);
+        visit(at + "heat", f.forces.heat);
     }
 }
 

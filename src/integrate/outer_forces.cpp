@@ -108,6 +108,7 @@ void outer_forces(World<R>& w) {
         for (std::size_t i = 0; i < s.loads.size(); ++i) press(s.loads[i], w.time, s.body, s.pairs, s.surface, s.load_force[i]);
     }
     w.force_from_outside = total_force(w) - inner;
+    for (FluidPart& f : w.fluids) f.forces.heat = f.solver.equalise(f.body, f.forces.press.data(), f.forces.near.data(), w.dt);
     for (const FluidPart& f : w.fluids) {
         if (f.body.mirrors.empty()) continue;
         const FluidView b = view(f.body);  // pairs within the part cancel; what is left came through the mirrors

@@ -66,6 +66,7 @@ void respond(World<R>& w, SolidPart<R>& s, double dt) {
 
 void advance(Ledger& ledger, FluidPart& f, double kick_time, double dt) {
     book_outer_work(ledger, f, kick_time);
+    ledger.contact_work += kick_time * f.forces.heat;
     f.solver.kick(f.body, kick_time, f.forces.fx.data(), f.forces.fy.data(), f.forces.fz.data());
     book_outer_work(ledger, f, kick_time);
     f.solver.drift(f.body, dt);
@@ -74,7 +75,7 @@ void advance(Ledger& ledger, FluidPart& f, double kick_time, double dt) {
 void respond(Ledger& ledger, FluidPart& f, double time, double dt) {
     f.solver.state(f.body, time);
     const FluidSolver::Powers p = f.solver.rates(f.body);
-    f.rate = f.solver.stable_rate(f.body);
+    f.rate = f.solver.stable_rate(f.body, f.forces.fx.data(), f.forces.fy.data(), f.forces.fz.data());
     ledger.viscous += p.viscous * dt;
     ledger.artificial += p.artificial * dt;
 }

@@ -113,7 +113,7 @@ PhysicsStop collapsed_step(const World<R>& w, double dt) {
     for (std::size_t p = 0; p < w.fluids.size(); ++p) {
         const FluidPart& f = w.fluids[p];
         if (f.body.name != part) continue;
-        row = row_of(w, Place{false, p, f.solver.fastest(f.body)});
+        row = row_of(w, Place{false, p, f.solver.fastest(f.body, f.forces.fx.data(), f.forces.fy.data(), f.forces.fz.data())});
     }
     return stop(w, fmt::format("the step fell to {:.3g} us (step.minimum = {:.3g} us), held by {},", dt, w.options.minimum, w.limiter), "who holds it", row,
                 "a particle crushed in a contact, a gas layer squeezed to nothing, a law outside of its range",

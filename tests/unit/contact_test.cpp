@@ -158,6 +158,32 @@ TEST(Contact, GasBetweenClosingWallsTakesTheirSpeedAndNoMore) {
     EXPECT_LT(fastest, 3.5 * u);  // (1 + e)/(1 - e) = 2.6, and what the progressive spring adds
 }
 
+TEST(Contact, GasAloneInALiquidTakesItsPressureAlongAnIsentrope) {
+    // one particle of air in the midst of water under 20 MPa, held in place: it has no neighbour of its kind to tell it of that
+    FluidPart water = fluid(library("water"), {}, {0.2, 4, 4, 4, -0.4, -0.4, -0.4, false}), air = fluid(library("air_paper"), {}, {0.2, 1, 1, 1, -0.05, -0.05, -0.05, false});
+    for (double& rho : water.body.rho) rho *= 1.009;
+    for (FluidPart* p : {&water, &air}) make_ready(*p);
+    FluidBody& b = air.body;
+    const double around = water.body.pressure[0], start = b.pressure[0], rho_start = b.rho[0], dt = 2e-3;
+    ASSERT_GT(around, 100 * start);
+    const double none = 0;
+    double power = 0, given = 0;
+    for (int n = 0; n < 2000; ++n) {
+        air.solver.state(b, 0);
+        air.solver.rates(b);
+        for (FluidPart* p : {&water, &air}) p->forces.begin(p->body);
+        node_contact(air.body, water.body, {}, air.forces, water.forces);
+        power = air.solver.equalise(b, air.forces.press.data(), air.forces.near.data(), dt);
+        given += power * dt;
+        air.solver.kick(b, dt, &none, &none, &none);
+        b.rho_now = b.rho;
+        b.e_now = b.e;
+    }
+    EXPECT_NEAR(b.pressure[0], around, 0.01 * around);
+    EXPECT_NEAR(std::log(b.pressure[0] / start) / std::log(b.rho[0] / rho_start), 1.4, 0.01);
+    EXPECT_NEAR(given, b.mass[0] * (b.e[0] - air.body.material.eos->initial_energy() / air.body.material.density), 1e-9 * given);
+}
+
 TEST(Contact, AtTheEndsOfASolidTheRightFacePushes) {
     // a disc of granite from z = 0 to 8 with a hole of radius 3, through it or down to z = 4
     const ShapePtr disc = make_cylinder({0, 0, 0}, {0, 0, 8}, 8);

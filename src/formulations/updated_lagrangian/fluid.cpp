@@ -204,6 +204,8 @@ struct DivergenceKernel {
         const double divergence = l.xx * s[6] + l.yy * s[7] + l.zz * s[8] + l.xy * s[9] + l.xz * s[10] + l.yz * s[11];
         const double closing = -std::min(divergence, 0.0) * me[3];
         w.correction[i] = l;
+        w.missing[i] = 1 - (s[0] + s[1] + s[2]) / 3;
+        w.unseen[i] = 1 - (l.xx * s[0] + l.yy * s[1] + l.zz * s[2] + 2 * (l.xy * s[3] + l.xz * s[4] + l.yz * s[5])) / 3;
         b.rho_rate[i] = -divergence;
         w.q[i] = b.rho_now[i] * closing * (quadratic * closing + linear * b.sound[i]);
     }
@@ -294,12 +296,12 @@ FluidWork FluidSolver::sort(const FluidBody& b) {
     for (auto* a : {&x_, &y_, &z_, &h_}) make_room(*a, padded);
     for (auto* a : {&motion_, &response_}) make_room(*a, 8 * padded);
     make_room(resistance_, padded);
-    for (auto* a : {&mu_, &q_}) make_room(*a, n);
+    for (auto* a : {&mu_, &q_, &missing_, &unseen_}) make_room(*a, n);
     if (correction_.size() != n) {
         const exec::HostAccess host;
         correction_.resize(n);
     }
-    FluidWork w{grid_.view(), points_.view(), {}, x_.data(), y_.data(), z_.data(), h_.data(), motion_.data(), response_.data(), resistance_.data(), correction_.data(), mu_.data(), q_.data(), body.n};
+    FluidWork w{grid_.view(), points_.view(), {}, x_.data(), y_.data(), z_.data(), h_.data(), motion_.data(), response_.data(), resistance_.data(), correction_.data(), mu_.data(), q_.data(), missing_.data(), unseen_.data(), body.n};
     exec::launch(static_cast<std::int64_t>(padded), MotionKernel{body, w}, 1024);
     neighbours_.build(w.grid, {w.x, w.y, w.z, w.h, w.motion, h_max}, OwnEntries{w});
     w.neighbours = neighbours_.view();
@@ -314,6 +316,21 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     const bool tension = b.options.artificial_stress && b.options.epsilon > 0 && exec::launch_max(body.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return -body.pressure[i]; }) > 0;
     exec::launch(w.grid.entries, ResponseKernel{body, w, tension ? b.options.epsilon : 0.0}, 1024);
     return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel{body, w, b.options.alpha, b.options.beta, b.options.n, tension});
+}
+
+double FluidSolver::equalise(FluidBody& body, const double* press, const double* near, double dt) {
+    const FluidView b = view(body);
+    const double *const missing = missing_.data(), *const unseen = unseen_.data();
+    return exec::launch_sum(b.n, BRISANCE_KERNEL(std::int64_t i) {
+        if (!(near[i] > 0 && missing[i] > 0.05 && unseen[i] > 0 && dt > 0)) return 0.0;
+        const double blind = std::min(unseen[i] / missing[i], 1.0), rho = b.rho_now[i], above = b.pressure[i] - press[i] / near[i];
+        const double impedance = std::sqrt(rho * (rho * b.sound[i] * b.sound[i] + std::abs(above)));
+        const double growth = std::clamp(blind * blind * above / (b.current_spacing(i) * impedance), -0.1 / dt, 0.1 / dt);
+        const double heat = -b.pressure[i] / rho * growth;
+        b.rho_rate[i] -= growth;
+        b.e_rate[i] += heat;
+        return b.mass[i] * heat;
+    });
 }
 
 void FluidSolver::kick(FluidBody& body, double kick, const double* fx, const double* fy, const double* fz) {
@@ -354,17 +371,18 @@ namespace {
 
 struct StableRate {
     FluidView b;
-    const double* mu;
+    const double *mu, *missing, *fx, *fy, *fz;
     double alpha, beta, linear, quadratic;
     BRISANCE_HD double operator()(std::int64_t i) const {
+        if (fx && missing[i] > 0.999 && fx[i] == 0 && fy[i] == 0 && fz[i] == 0) return 0;
         const double a = std::sqrt(b.acceleration[0][i] * b.acceleration[0][i] + b.acceleration[1][i] * b.acceleration[1][i] +
                                    b.acceleration[2][i] * b.acceleration[2][i]);
         const double closing = std::max(b.rho_rate[i], 0.0) * b.h[i];
         return std::max((b.sound[i] * (1 + 0.6 * alpha + 1.2 * linear) + 0.6 * beta * mu[i] + 1.2 * quadratic * closing) / b.h[i], std::sqrt(a / b.h[i]));
     }
 };
-StableRate stable_rate_of(const FluidBody& b, const Array<double>& mu) {
-    return {view(b), mu.data(), b.options.alpha, b.options.beta, b.options.linear, b.options.quadratic};
+StableRate stable_rate_of(const FluidBody& b, const Array<double>& mu, const Array<double>& missing, const double* fx, const double* fy, const double* fz) {
+    return {view(b), mu.data(), missing.data(), fx, fy, fz, b.options.alpha, b.options.beta, b.options.linear, b.options.quadratic};
 }
 
 struct FluidSumsKernel {
@@ -386,11 +404,13 @@ struct FluidSumsKernel {
 
 }  // namespace
 
-double FluidSolver::stable_rate(const FluidBody& b) const { return exec::launch_max(b.size(), 0.0, stable_rate_of(b, mu_)); }
+double FluidSolver::stable_rate(const FluidBody& b, const double* fx, const double* fy, const double* fz) const {
+    return exec::launch_max(b.size(), 0.0, stable_rate_of(b, mu_, missing_, fx, fy, fz));
+}
 
-std::size_t FluidSolver::fastest(const FluidBody& b) const {
+std::size_t FluidSolver::fastest(const FluidBody& b, const double* fx, const double* fy, const double* fz) const {
     const exec::HostAccess host;
-    const StableRate rate = stable_rate_of(b, mu_);
+    const StableRate rate = stable_rate_of(b, mu_, missing_, fx, fy, fz);
     std::int64_t most = 0;
     for (std::int64_t i = 1; i < b.size(); ++i)
         if (rate(i) > rate(most)) most = i;

@@ -31,6 +31,7 @@ struct FluidWork {
     double* resistance;            ///< R of the entries, where there is tension
     Sym3<double>* correction;      ///< L of the particles
     double *mu, *q;                ///< of the particles: largest |mu|, and bulk viscosity, GPa
+    double *missing, *unseen;      ///< of the particles: 1 - tr(M)/3, the share of their surroundings without their kind, and 1 - tr(L M)/3, what of it L does not restore
     std::int64_t n;                ///< particles
 
     /// Whether an entry of the grid stands for another particle: beyond the period, or beyond a mirror.
@@ -56,16 +57,25 @@ public:
         }
     };
     Powers rates(FluidBody& body);
+    /// A particle in a sheet, or alone among those of another part, learns nothing of its volume from its own kind: it would keep its density
+    /// whatever presses on it, and gas in the midst of a liquid under pressure would be as light as at the start, and be thrown about until it
+    /// is hot enough to bear that pressure at that density. It follows the pressure p of the fluid that touches it, isentropically, as fast as
+    /// the difference lets its surface move:
+    ///   d ln V/dt = b^2 (P - p)/(kappa sqrt(rho (rho c^2 + |P - p|))),   de/dt = -P/rho d ln V/dt
+    /// b = [1 - tr(L M)/3]/[1 - tr(M)/3] is 0.1 at a plane surface, where L sees enough, and 1 in a sheet. `press` and `near` as FluidForces has
+    /// them. Adds to the rates of rho and e; gives the power, W = J/us, which comes from contact.
+    double equalise(FluidBody& body, const double* press, const double* near, double dt);
     /// v, rho, e over a kick, with the outer forces (mN) on each particle. The heat of a pair was taken with velocities extrapolated to
     /// t_n; what its force did was with the mean of before and after the kick. The difference, f_i.(v_mean - v_now), goes back into e_i,
     /// so that kinetic and internal energy together change by the work of the outer forces alone, to round-off.
     void kick(FluidBody& body, double kick, const double* fx, const double* fy, const double* fz);
     /// x, and the extrapolation to the next t_n.
     void drift(FluidBody& body, double dt);
-    /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us.
-    double stable_rate(const FluidBody& body) const;
+    /// The largest stable rate 1/dt before the Courant factor: (c + 0.6 (alpha c + beta |mu|))/h and sqrt(|a|/h), 1/us. A particle without
+    /// neighbours that nothing touched has none, where the outer forces of the step before are given, mN.
+    double stable_rate(const FluidBody& body, const double* fx = nullptr, const double* fy = nullptr, const double* fz = nullptr) const;
     /// The particle that holds it.
-    std::size_t fastest(const FluidBody& body) const;
+    std::size_t fastest(const FluidBody& body, const double* fx = nullptr, const double* fy = nullptr, const double* fz = nullptr) const;
     BodySums sums(const FluidBody& body) const;
     /// Mean number of neighbours in the last rates().
     double neighbours_per_particle() const;
@@ -79,7 +89,7 @@ private:
     Array<float> x_, y_, z_, h_;
     Array<double> motion_, response_, resistance_;
     Array<Sym3<double>> correction_;
-    Array<double> mu_, q_;
+    Array<double> mu_, q_, missing_, unseen_;
 };
 
 /// Lighting times from detonation points: time + distance/D in the initial configuration.
