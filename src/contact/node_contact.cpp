@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/chosen_points.h"
-#include "contact/sorted_columns.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 
@@ -10,9 +9,6 @@
 namespace brisance {
 
 namespace {
-
-using V = Pack<double>;
-constexpr int width = lanes<double>;
 
 struct Touched {
     double stored = 0, overlap = 0;
@@ -30,7 +26,6 @@ struct Touched {
 struct Layer {
     RingMapView map;
     const std::int32_t* points = nullptr;
-    SortedView<4> near{};   ///< x y z and spacing of the grid's entries
     double widest = 0;
 };
 constexpr int layers = 4;
@@ -44,28 +39,13 @@ struct Side {
     Layer layer[layers];
 };
 
-/// Row k of a layer's columns; behind the last nothing, out of everybody's reach.
-struct LayerRows {
-    CellGridView grid;
-    const std::int32_t* list;
-    MirroredView points;
-    const double* spacing;
-    SortedView<4> rows;
-    BRISANCE_HD void operator()(std::int64_t k) const {
-        if (k >= grid.entries) return rows.put(k, {1e30, 0, 0, 0});
-        const std::int64_t point = list[grid.index[k]];
-        rows.put(k, {points.place[0][point], points.place[1][point], points.place[2][point] + grid.shift[k], spacing[points.particle(point)]});
-    }
-};
-
 /// Kept between steps for its memory; contact is not re-entrant.
-struct Prepared {
+struct Sorted {
     Mirrored points;
     ChosenPoints chosen[layers];
-    Sorted<4> columns[layers];
 };
 
-Side side(const FluidBody& b, FluidForces& f, Prepared& sorted, double largest, std::int64_t looks) {
+Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, std::int64_t looks) {
     sorted.points.build(b, largest);
     Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, f.press.data(), f.near.data(), sorted.points.view(), {}};
     const MirroredView points = s.points;
@@ -82,10 +62,7 @@ Side side(const FluidBody& b, FluidForces& f, Prepared& sorted, double largest, 
         if (count > 0) {
             const double widest = exec::launch_max(count, 0.0, BRISANCE_KERNEL(std::int64_t m) { return spacing[points.particle(list[m])]; });
             sorted.chosen[k].build(points.place[0], points.place[1], points.place[2], count, widest, largest, b.z_low, b.period, looks);
-            const RingMapView& map = sorted.chosen[k].view();
-            const SortedView<4> rows = sorted.columns[k].room(map.grid.entries);
-            exec::launch(map.grid.entries + width, LayerRows{map.grid, list, points, spacing, rows}, 1024);
-            s.layer[k] = {map, list, rows, widest};
+            s.layer[k] = {sorted.chosen[k].view(), list, widest};
         }
         above = below;
         below *= 2;
@@ -105,14 +82,8 @@ struct NodeKernel {
             const double reach = 0.5 * (me.spacing[i] + layer.widest);
             const CellGridView& grid = layer.map.grid;
             if (grid.entries == 0 || layer.map.bound(p.x[0][i], p.x[1][i], p.x[2][i]) >= reach) continue;
-            const V x = broadcast<V>(p.x[0][i]), y = broadcast<V>(p.x[1][i]), z = broadcast<V>(p.x[2][i]), half = broadcast<V>(0.5 * me.spacing[i]);
             grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], reach, [&](std::int64_t first, std::int64_t last) {
-                for (std::int64_t q = first; q < last; q += width) {
-                    const V dx = x - layer.near(0, q), dy = y - layer.near(1, q), dz = z - layer.near(2, q), d = half + 0.5 * layer.near(3, q);
-                    unsigned close = lane_bits((dx * dx + dy * dy + dz * dz < (1 + 1e-12) * d * d) & lanes_before<V>(q, last));
-                    for (std::int64_t k = q; close; ++k, close >>= 1)
-                        if (close & 1) touch(i, layer, k, felt, local);
-                }
+                for (std::int64_t k = first; k < last; ++k) touch(i, layer, k, felt, local);
             });
         }
         for (int a = 0; a < 3; ++a) me.f[a][i] += felt.f[a];
@@ -155,7 +126,7 @@ private:
 }  // namespace
 
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
-    static Prepared sorted[2];
+    static Sorted sorted[2];
     const double largest = std::max(fa.largest_spacing, fb.largest_spacing);
     const Side sides[2] = {side(a, fa, sorted[0], largest, b.size()), side(b, fb, sorted[1], largest, a.size())};
     ContactReport report;

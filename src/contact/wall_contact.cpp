@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/chosen_points.h"
-#include "contact/sorted_columns.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 #include "math/kernel.h"
@@ -39,6 +38,31 @@ struct Nodes {
 /// What node i feels of the wall: force, the normaliser of its weights, and the kind of points that they belong to.
 struct Touch {
     double fx, fy, fz, weights, face, stored, overlap;
+};
+
+/// Columns of numbers in the order of a grid's entries, with a pack of room behind the last.
+template <int n>
+struct SortedView {
+    double* columns[n];
+    BRISANCE_HD V operator()(int c, std::int64_t k) const { return load<V>(columns[c] + k); }
+    BRISANCE_HD void put(std::int64_t k, const double (&row)[n]) const {
+        for (int c = 0; c < n; ++c) columns[c][k] = row[c];
+    }
+};
+template <int n>
+class Sorted {
+public:
+    SortedView<n> room(std::int64_t entries) {
+        SortedView<n> v;
+        for (std::size_t c = 0; c < n; ++c) {
+            make_room(columns_[c], static_cast<std::size_t>(entries + width));
+            v.columns[c] = columns_[c].data();
+        }
+        return v;
+    }
+
+private:
+    std::array<Array<double>, n> columns_;
 };
 
 /// A point of the wall, or a pack of them: place, normal, shape of its kernel, and how far behind it a node is still pushed back.
@@ -272,8 +296,9 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
         const std::int32_t j = active[k];
         return Extent{std::max(wall.spacing[j], wall.dz[j]), wall.depth[j]};
     });
-    // cells for nodes of usual size; few gas particles have expanded far, and they look into more cells
-    active_points.build(wall.x, wall.y, wall.z, count, 0.5 * extent.reach(0), extent.reach(radius), z_low, period, nodes.n);
+    // Cells for nodes of usual size; few gas particles have expanded far, and they look into more cells. Small cells make short rows of points,
+    // and packs that are not full.
+    active_points.build(wall.x, wall.y, wall.z, count, extent.reach(0), extent.reach(radius), z_low, period, nodes.n);
     const CellGridView walls = active_points.view().grid;
     const SortedView<15> w = wall_columns.room(walls.entries);
     exec::launch(walls.entries + width, WallRows{wall, active, walls, w}, 1024);
