@@ -44,6 +44,7 @@ struct Surface {
     Array<double> offset;                   ///< of the wall from the particle, at rest, mm
     Array<double> depth;                    ///< how far behind the wall a node is still pushed back, mm
     Array<double> face;                     ///< 0: a side; 1, -1: an upper or lower end
+    Array<double> up, down;                 ///< of a side's point: how far it is to the ends of its column, mm; without end in a slice
     std::size_t sides = 0, upper = 0;       ///< how many are sides; and how many sides or upper ends. A particle has no two points of a kind
     double coarsest = 0;                    ///< mm, largest of spacing and dz
     double density = 0;                     ///< g/cm3, at rest
@@ -54,7 +55,7 @@ struct Surface {
 struct SurfaceView {
     const std::int64_t* slot;
     const std::int32_t* column;
-    double *x, *y, *z, *n[3], *v[3], *mass, *area, *spacing, *dz, *modulus, *f[3], *i[3], *j[3], *z_reference, *offset, *depth, *face;
+    double *x, *y, *z, *n[3], *v[3], *mass, *area, *spacing, *dz, *modulus, *f[3], *i[3], *j[3], *z_reference, *offset, *depth, *face, *up, *down;
     std::int64_t size, sides, upper;
 };
 /// Kernels that only read take it too, so that a surface that is constant has one.
@@ -62,7 +63,7 @@ inline SurfaceView view(const Surface& constant) {
     auto& s = const_cast<Surface&>(constant);
     return {s.slot.data(), s.column.data(), s.x.data(), s.y.data(), s.z.data(), {s.nx.data(), s.ny.data(), s.nz.data()}, {s.vx.data(), s.vy.data(), s.vz.data()},
             s.mass.data(), s.area.data(), s.spacing.data(), s.dz.data(), s.modulus.data(), {s.fx.data(), s.fy.data(), s.fz.data()},
-            {s.ix.data(), s.iy.data(), s.iz.data()}, {s.jx.data(), s.jy.data(), s.jz.data()}, s.z_reference.data(), s.offset.data(), s.depth.data(), s.face.data(),
+            {s.ix.data(), s.iy.data(), s.iz.data()}, {s.jx.data(), s.jy.data(), s.jz.data()}, s.z_reference.data(), s.offset.data(), s.depth.data(), s.face.data(), s.up.data(), s.down.data(),
             static_cast<std::int64_t>(s.size()), static_cast<std::int64_t>(s.sides), static_cast<std::int64_t>(s.upper)};
 }
 

@@ -25,6 +25,8 @@ Surface make_surface(const SolidBody<R>& b) {
         s.offset.push_back(offset);
         s.depth.push_back(depth);
         s.face.push_back(face);
+        s.up.push_back(0);
+        s.down.push_back(0);
         s.modulus.push_back(b.material.longitudinal_modulus());
         s.z_reference.push_back(column.z0 + k * dz);
     };
@@ -34,8 +36,15 @@ Surface make_surface(const SolidBody<R>& b) {
             for (int k = 0; k < b.layout.columns[c].layers; ++k)
                 if (b.layout.flags[static_cast<std::size_t>(b.layout.columns[c].start + k)] & kind) use(c, b.layout.columns[c], k);
     };
+    std::vector<int> first(b.layout.columns.size()), last(first);
+    each(slot_low, [&](std::size_t c, const Column&, int k) { first[c] = k; });
+    each(slot_high, [&](std::size_t c, const Column&, int k) { last[c] = k; });
     each(slot_own, [&](std::size_t c, const Column& column, int k) {
-        if (column.wall_layer == 0) add(c, k, 0, column.wall_length * dz, column.wall_distance, 3 * column.wall_distance);
+        if (column.wall_layer != 0) return;
+        add(c, k, 0, column.wall_length * dz, column.wall_distance, 3 * column.wall_distance);
+        const double above_low = column.z0 - b.layout.z_low;  // within its layer
+        s.up.back() = b.layout.periodic ? 1e30 : (last[c] + 1 - k) * dz - above_low;
+        s.down.back() = b.layout.periodic ? 1e30 : (k - first[c]) * dz + above_low;
     });
     s.sides = s.upper = s.size();
     if (!b.layout.periodic) {

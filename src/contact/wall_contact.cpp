@@ -95,17 +95,18 @@ struct Extent {
     }
 };
 
-/// Row k of the wall's columns: place 0-2, normal 3-5, spacing, dz, depth, area 6-9, velocity 10-12, modulus 13, face 14.
+/// Row k of the wall's columns: place 0-2, normal 3-5, spacing, dz, depth, area 6-9, velocity 10-12, modulus 13, face 14, how far the wall goes on
+/// upwards and downwards 15-16.
 struct WallRows {
     SurfaceView wall;
     const std::int32_t* active;
     CellGridView grid;
-    SortedView<15> rows;
+    SortedView<17> rows;
     BRISANCE_HD void operator()(std::int64_t k) const {
         if (k >= grid.entries) return rows.put(k, {0});
         const std::int32_t j = active[grid.index[k]];
         rows.put(k, {wall.x[j],  wall.y[j],     wall.z[j] + grid.shift[k], wall.n[0][j], wall.n[1][j], wall.n[2][j], wall.spacing[j],
-                     wall.dz[j], wall.depth[j], wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j], wall.face[j]});
+                     wall.dz[j], wall.depth[j], wall.area[j],              wall.v[0][j], wall.v[1][j], wall.v[2][j], wall.modulus[j], wall.face[j], wall.up[j], wall.down[j]});
     }
 };
 
@@ -113,7 +114,7 @@ struct WallRows {
 struct WallKernel {
     Nodes nodes;
     RingMapView map;
-    SortedView<15> w;
+    SortedView<17> w;
     Extent extent;
     double density;   ///< of the wall, g/cm3
     ContactOptions o;
@@ -134,8 +135,8 @@ private:
     /// `others`: set where there are points of another kind in reach.
     BRISANCE_HD Plane seen(std::int64_t i, const Vec3<V>& at, double face, bool& others) const {
         const double reached = nodes.radius(i);
-        V weights{}, gaps{}, modulus{}, sizes{};
-        Vec3<V> normals, velocities, besides;
+        V weights{}, gaps{}, modulus{}, beside{}, x{}, y{};
+        Vec3<V> normals, velocities;
         map.grid.ranges(nodes.x[0][i], nodes.x[1][i], nodes.x[2][i], extent.reach(reached), [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
@@ -148,8 +149,10 @@ private:
                 gaps += omega * gap;
                 normals = normals + omega * s.normal;
                 velocities = velocities + omega * Vec3<V>{w(10, q), w(11, q), w(12, q)};
-                besides = besides + omega * (at - s.at);
-                sizes += omega * (face == 0 ? s.dz : s.spacing);
+                const V dz = at.z - s.at.z;
+                beside += omega * (face == 0 ? vmax(dz - w(15, q), -dz - w(16, q)) : -0.75 * s.spacing);
+                x += omega * (at.x - s.at.x);
+                y += omega * (at.y - s.at.y);
                 modulus += omega * w(13, q);
             }
         });
@@ -157,9 +160,10 @@ private:
         plane.weights = hsum(weights);
         if (!(plane.weights > 0)) return plane;
         const double per = 1 / plane.weights;
-        // The last points of a wall are half a spacing from where it ends: seen from there their middle is half a spacing away.
-        const double x = hsum(besides.x), y = hsum(besides.y), beside = face == 0 ? std::abs(hsum(besides.z)) : std::sqrt(x * x + y * y);
-        if (beside > 0.75 * hsum(sizes)) return {};
+        // A side is beside the node above and below its ends; an end where the points that are seen have their middle far to one side. The last
+        // columns stand half a spacing from the edge: from there it is half a spacing away.
+        const double sx = hsum(x), sy = hsum(y), off = face == 0 ? 0.0 : std::sqrt(sx * sx + sy * sy);
+        if (off + hsum(beside) > 0) return {};
         const Vec3<double> normal{hsum(normals.x), hsum(normals.y), hsum(normals.z)};
         plane.gap = per * hsum(gaps);
         plane.modulus = per * hsum(modulus);
@@ -279,7 +283,7 @@ struct ReactionKernel {
 ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOptions& o, double z_low, double period) {
     // kept between steps for their memory; contact is not re-entrant
     static ChosenPoints active_points, touching_nodes;
-    static Sorted<15> wall_columns;
+    static Sorted<17> wall_columns;
     static Sorted<11> node_columns;
     static Array<Touch> touches;
 
@@ -300,7 +304,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     // and packs that are not full.
     active_points.build(wall.x, wall.y, wall.z, count, extent.reach(0), extent.reach(radius), z_low, period, nodes.n);
     const CellGridView walls = active_points.view().grid;
-    const SortedView<15> w = wall_columns.room(walls.entries);
+    const SortedView<17> w = wall_columns.room(walls.entries);
     exec::launch(walls.entries + width, WallRows{wall, active, walls, w}, 1024);
 
     make_room(touches, static_cast<std::size_t>(nodes.n));

@@ -44,6 +44,24 @@ struct Total {
 
 const ContactOptions rough{1, 0.05, 0.3, 1e-3};
 
+/// A disc of granite, z = 0 to 8 mm, with a hole of radius 3 mm from `bottom` up: layers of `dz`, particles 0.5 mm apart across.
+SolidPart<double> disc_with_hole(double bottom, double dz) {
+    const ShapePtr disc = make_cylinder({0, 0, 0}, {0, 0, 8}, 8), hole = make_cylinder({0, 0, bottom}, {0, 0, 9}, 3);
+    PlacementOptions o;
+    o.spacing = 0.5;
+    o.spacing_z = dz;
+    const Placement placed = place(*disc, {hole}, o);
+    SolidPart<double> s = solid(elastic_granite(), {}, placed.columns, placed.dz, false, [&](const Column& c, int k) {
+        const Point at{c.x, c.y, (k + 0.5) * placed.dz};
+        return disc->contains(at) && !hole->contains(at);
+    });
+    s.body.layout.z_low = placed.z_low;  // columns start at any height within the first layer
+    s.surface = make_surface(s.body);
+    respond_to(s);
+    follow(s.surface, s.body, s.pairs, 0);
+    return s;
+}
+
 }  // namespace
 
 TEST(Contact, ReactionEqualsActionBetweenFluids) {
@@ -185,8 +203,6 @@ TEST(Contact, GasAloneInALiquidTakesItsPressureAlongAnIsentrope) {
 }
 
 TEST(Contact, AtTheEndsOfASolidTheRightFacePushes) {
-    // a disc of granite from z = 0 to 8 with a hole of radius 3, through it or down to z = 4
-    const ShapePtr disc = make_cylinder({0, 0, 0}, {0, 0, 8}, 8);
     constexpr double reach = 0.15;  // of a particle of water
     const struct { double bottom, r, z; Vec3<double> push; const char* where; } probes[] = {
         {-1, 4.2, 8 + 0.5 * reach, {0, 0, 1}, "on the top"},
@@ -200,17 +216,7 @@ TEST(Contact, AtTheEndsOfASolidTheRightFacePushes) {
         {4, 1.5, 4 + 0.5 * reach, {0, 0, 1}, "on the bottom of a blind hole"},
     };
     for (const auto& probe : probes) {
-        const ShapePtr hole = make_cylinder({0, 0, probe.bottom}, {0, 0, 9}, 3);
-        PlacementOptions o;
-        o.spacing = o.spacing_z = 0.5;
-        o.z_phase = false;
-        const Placement placed = place(*disc, {hole}, o);
-        SolidPart<double> s = solid(elastic_granite(), {}, placed.columns, placed.dz, false, [&](const Column& c, int k) {
-            const Point at{c.x, c.y, (k + 0.5) * placed.dz};
-            return disc->contains(at) && !hole->contains(at);
-        });
-        respond_to(s);
-        follow(s.surface, s.body, s.pairs, 0);
+        SolidPart<double> s = disc_with_hole(probe.bottom, 0.5);
         FluidPart f = disturbed_water({2 * reach, 1, 1, 1, probe.r - reach, -reach, probe.z - reach, false}, 0, 1, 0);
         wall_contact(f.body, s.surface, {}, 0, 0, f.forces);
         const Vec3<double> force{f.forces.fx[0], f.forces.fy[0], f.forces.fz[0]};
@@ -225,6 +231,23 @@ TEST(Contact, AtTheEndsOfASolidTheRightFacePushes) {
         t.add(s.surface.fx, s.surface.fy, s.surface.fz);
         t.expect_none();
     }
+}
+
+TEST(Contact, AboveTheRimOfAHoleNothingPushes) {
+    // layers as thick as three spacings: the wall of the hole could be taken to go on far above its end
+    SolidPart<double> s = disc_with_hole(-1, 1.6);
+    FluidPart f = disturbed_water({0.3, 16, 20, 8, 0, 0, 0, false}, 0, 1, 0);
+    FluidBody& b = f.body;
+    std::size_t n = 0;
+    for (int i = 0; i < 16; ++i)
+        for (int j = 0; j < 20; ++j)
+            for (int k = 0; k < 8; ++k, ++n) {
+                const double r = 2.9 + 0.05 * i, angle = 0.1 * j;
+                b.x[0][n] = r * std::cos(angle);
+                b.x[1][n] = r * std::sin(angle);
+                b.x[2][n] = 8.2 + 0.2 * k;
+            }
+    EXPECT_EQ(wall_contact(b, s.surface, {}, 0, 0, f.forces).touching, 0);
 }
 
 TEST(Contact, ReactionEqualsActionAtAWall) {
