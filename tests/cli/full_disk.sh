@@ -11,6 +11,7 @@ if ldd "$BRISANCE" | grep -q 'lib[at]san'; then echo "a sanitizer wants to be lo
 
 (start --out "$tmp/whole" 2>"$tmp/err") || { wrong "the undisturbed run failed: $(cat "$tmp/err")"; finish; }
 
+# A checkpoint follows every step, so that how many there are does not depend on the speed of the machine.
 # fault CALLS PATH AFTER ERRNO PATTERN...: from the AFTER-th call on, calls on PATH fail; the run stops with code 4 and says so. Then the
 # fault is gone, and if there was a checkpoint the run goes on from it.
 fault() {
@@ -19,7 +20,7 @@ fault() {
     rm -rf -- "$run"
     command="a run in which '$calls' fails on '$path' after $after"
     (exec 2>"$tmp/err"; export LD_PRELOAD=$tmp/fault.so FAULT_CALLS=$calls FAULT_PATH=$path FAULT_AFTER=$after FAULT_ERRNO=$number
-        start --out "$run" --set 'output.checkpoint="0.1 s"' >"$tmp/out"); code=$?
+        start --out "$run" --set 'output.checkpoint="1e-3 s"' >"$tmp/out"); code=$?
     ((code == 4)) || wrong "$command: exit code $code, not 4"
     says err '^error: ' "$@"
     [[ -z $(compgen -G "$run/*/*.part") && -z $(compgen -G "$run/*.part") ]] || wrong "$command: half-written files remain: $(compgen -G "$run/*/*.part")"
