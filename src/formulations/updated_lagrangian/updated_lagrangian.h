@@ -62,6 +62,7 @@ public:
     /// is hot enough to bear that pressure at that density. It follows the pressure p of the fluid that touches it, isentropically, as fast as
     /// the difference lets its surface move:
     ///   d ln V/dt = b^2 (P - p)/(kappa sqrt(rho (rho c^2 + |P - p|))),   de/dt = -P/rho d ln V/dt
+    /// but expands no further than to its initial density: drops of liquid bear no pressure, and yet leave gas between them no room.
     /// b = [1 - tr(L M)/3]/[1 - tr(M)/3] is 0.1 at a plane surface, where L sees enough, and 1 in a sheet. `press` and `near` as FluidForces has
     /// them. Adds to the rates of rho and e; gives the power, W = J/us, which comes from contact.
     double equalise(FluidBody& body, const double* press, const double* near, double dt);
