@@ -74,11 +74,12 @@ ContactReport press(const Platen& platen, const FluidBody& b, FluidForces& f) {
     const exec::HostAccess host;
     const Point n = (1 / norm(platen.normal)) * platen.normal;
     ContactReport report;
+    const FluidView fluid = view(b);
     const auto inside = [&](const std::array<Array<double>, 3>& at, std::size_t i) { return dot(platen.point - Point{at[0][i], at[1][i], at[2][i]}, n); };
     for (std::size_t i = 0; i < b.mass.size(); ++i) {
         const double kappa = f.spacing[i], gap = inside(b.x, i);
         if (!(gap < 0.5 * kappa)) continue;
-        const double at_rest = std::cbrt(b.mass[i] / (b.rho_start.empty() ? b.material.density : b.rho_start[i]));
+        const double at_rest = std::cbrt(b.mass[i] / fluid.initial_density(static_cast<std::int64_t>(i)));
         const double overlap = kappa * std::clamp(inside(b.reference, i) / at_rest, 0.0, 0.5) - gap;
         if (!(overlap > 0)) continue;
         const double k = 8 * f.modulus[i] * kappa;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace brisance {
 
@@ -36,19 +37,19 @@ Surface make_surface(const SolidBody<R>& b) {
             for (int k = 0; k < b.layout.columns[c].layers; ++k)
                 if (b.layout.flags[static_cast<std::size_t>(b.layout.columns[c].start + k)] & kind) use(c, b.layout.columns[c], k);
     };
+    // where in the layer that it stands for a column's particle is
+    const auto below = [&](const Column& column) { return std::clamp(column.z0 - b.layout.z_low, 0.0, dz); };
     std::vector<int> first(b.layout.columns.size()), last(first);
     each(slot_low, [&](std::size_t c, const Column&, int k) { first[c] = k; });
     each(slot_high, [&](std::size_t c, const Column&, int k) { last[c] = k; });
     each(slot_own, [&](std::size_t c, const Column& column, int k) {
         if (column.wall_layer != 0) return;
         add(c, k, 0, column.wall_length * dz, column.wall_distance, 3 * column.wall_distance);
-        const double above_low = column.z0 - b.layout.z_low;  // within its layer
-        s.up.back() = b.layout.periodic ? 1e30 : (last[c] + 1 - k) * dz - above_low;
-        s.down.back() = b.layout.periodic ? 1e30 : (k - first[c]) * dz + above_low;
+        s.up.back() = b.layout.periodic ? 1e30 : (last[c] + 1 - k) * dz - below(column);
+        s.down.back() = b.layout.periodic ? 1e30 : (k - first[c]) * dz + below(column);
     });
     s.sides = s.upper = s.size();
     if (!b.layout.periodic) {
-        const auto below = [&](const Column& column) { return std::clamp(column.z0 - b.layout.z_low, 0.0, dz); };
         each(slot_high, [&](std::size_t c, const Column& column, int k) { add(c, k, 1, column.area, dz - below(column), 1.5 * dz); });
         s.upper = s.size();
         each(slot_low, [&](std::size_t c, const Column& column, int k) { add(c, k, -1, column.area, below(column), 1.5 * dz); });

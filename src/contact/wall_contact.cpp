@@ -149,11 +149,15 @@ private:
                 gaps += omega * gap;
                 normals = normals + omega * s.normal;
                 velocities = velocities + omega * Vec3<V>{w(10, q), w(11, q), w(12, q)};
-                const V dz = at.z - s.at.z;
-                beside += omega * (face == 0 ? vmax(dz - w(15, q), -dz - w(16, q)) : -0.75 * s.spacing);
-                x += omega * (at.x - s.at.x);
-                y += omega * (at.y - s.at.y);
                 modulus += omega * w(13, q);
+                if (face == 0) {
+                    const V dz = at.z - s.at.z;
+                    beside += omega * vmax(dz - w(15, q), -dz - w(16, q));
+                } else {
+                    beside -= omega * (0.75 * s.spacing);
+                    x += omega * (at.x - s.at.x);
+                    y += omega * (at.y - s.at.y);
+                }
             }
         });
         Plane plane;
@@ -162,8 +166,8 @@ private:
         const double per = 1 / plane.weights;
         // A side is beside the node above and below its ends; an end where the points that are seen have their middle far to one side. The last
         // columns stand half a spacing from the edge: from there it is half a spacing away.
-        const double sx = hsum(x), sy = hsum(y), off = face == 0 ? 0.0 : std::sqrt(sx * sx + sy * sy);
-        if (off + hsum(beside) > 0) return {};
+        const double sx = hsum(x), sy = hsum(y);
+        if (std::sqrt(sx * sx + sy * sy) + hsum(beside) > 0) return {};
         const Vec3<double> normal{hsum(normals.x), hsum(normals.y), hsum(normals.z)};
         plane.gap = per * hsum(gaps);
         plane.modulus = per * hsum(modulus);

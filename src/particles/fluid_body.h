@@ -57,8 +57,9 @@ struct FluidView {
     double *x[3], *v[3], *v_now[3], *acceleration[3];
     double *mass, *rho, *rho_now, *rho_rate, *e, *e_now, *e_rate, *pressure, *sound, *h, *rho_start, *lit, *burnt, *peak_pressure;
     std::int64_t n;
-    double spacing, z_low, period;
+    double spacing, z_low, period, density;   ///< density: of the material at rest
     BRISANCE_HD double current_spacing(std::int64_t i) const { return std::cbrt(mass[i] / rho_now[i]); }
+    BRISANCE_HD double initial_density(std::int64_t i) const { return rho_start ? rho_start[i] : density; }
 };
 /// Kernels that only read take it too, so that a body that is constant has one.
 inline FluidView view(const FluidBody& constant) {
@@ -86,6 +87,7 @@ inline FluidView view(const FluidBody& constant) {
     v.spacing = b.spacing;
     v.z_low = b.z_low;
     v.period = b.period;
+    v.density = b.material.density;
     return v;
 }
 

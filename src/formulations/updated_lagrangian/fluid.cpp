@@ -68,7 +68,7 @@ struct StateKernel {
             b.pressure[i] = pressure;
             b.sound[i] = sound;
             b.peak_pressure[i] = std::max(b.peak_pressure[i], pressure);
-            b.h[i] = h0 * std::clamp(std::cbrt((b.rho_start ? b.rho_start[i] : rho0) / b.rho_now[i]), h_min, h_max);
+            b.h[i] = h0 * std::clamp(std::cbrt(b.initial_density(i) / b.rho_now[i]), h_min, h_max);
         }
     }
 };
@@ -321,11 +321,10 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
 double FluidSolver::equalise(FluidBody& body, const double* press, const double* near, double dt) {
     const FluidView b = view(body);
     const double *const missing = missing_.data(), *const unseen = unseen_.data();
-    const double rho0 = body.material.density;
     return exec::launch_sum(b.n, BRISANCE_KERNEL(std::int64_t i) {
         if (!(near[i] > 0 && missing[i] > 0.05 && unseen[i] > 0 && dt > 0)) return 0.0;
         const double blind = std::min(unseen[i] / missing[i], 1.0), rho = b.rho_now[i], above = b.pressure[i] - press[i] / near[i];
-        if (above > 0 && rho <= (b.rho_start ? b.rho_start[i] : rho0)) return 0.0;
+        if (above > 0 && rho <= b.initial_density(i)) return 0.0;
         const double impedance = std::sqrt(rho * (rho * b.sound[i] * b.sound[i] + std::abs(above)));
         const double growth = std::clamp(blind * blind * above / (b.current_spacing(i) * impedance), -0.1 / dt, 0.1 / dt);
         const double heat = -b.pressure[i] / rho * growth;
