@@ -263,7 +263,7 @@ Estimate estimate(const Case& c) {
         part.lanes = solid ? columns * std::ceil(layers / width) * width : part.particles;
         const double slots = solid ? part.lanes + columns * std::ceil(2 * pad / width) * width : part.particles;
         const double state = m.strength ? static_cast<double>(m.strength->state().size()) : 0;
-        constexpr double fluid_bytes = 1250;  // with lists of 70 neighbours: bench water, docs/performance.md
+        constexpr double fluid_bytes = 1300;  // with lists of 70 neighbours: bench water, docs/performance.md
         const double per_slot = solid ? real * (31 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : fluid_bytes;
         part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
         part.dt = solid ? c.step.courant_solid * stencil_tau(p.smoothing, p.zero_energy) * std::min(p.spacing, p.spacing_z) / m.sound_speed()
