@@ -185,6 +185,34 @@ inline void bucket_sort(const std::int32_t* bucket, std::int64_t n, std::int64_t
     begin[buckets] = n;
 }
 
+/// Turns the numbers into the sums of those before them. Returns the sum of all.
+inline std::int64_t scan(std::int64_t* number, std::int64_t n) {
+    if (n <= 0) return 0;
+#ifdef BRISANCE_CUDA
+    if (on_device()) return cuda::scan(number, n);
+#endif
+    const detail::Opened opened;
+    const std::int64_t parts = n < worth_sharing ? 1 : threads();
+    std::vector<std::int64_t> before(static_cast<std::size_t>(parts) + 1);
+    if (parts > 1)
+        for_each(parts, [&](std::int64_t p) {
+            std::int64_t sum = 0;
+            for (std::int64_t i = n * p / parts; i < n * (p + 1) / parts; ++i) sum += number[i];
+            before[static_cast<std::size_t>(p) + 1] = sum;
+        }, 1);
+    for (std::size_t p = 1; p < before.size(); ++p) before[p] += before[p - 1];
+    for_each(parts, [&](std::int64_t p) {
+        std::int64_t sum = before[static_cast<std::size_t>(p)];
+        for (std::int64_t i = n * p / parts; i < n * (p + 1) / parts; ++i) {
+            const std::int64_t here = number[i];
+            number[i] = sum;
+            sum += here;
+        }
+        if (p == parts - 1) before.back() = sum;
+    }, 1);
+    return before.back();
+}
+
 #else  // in a build for CUDA only what goes through nvcc can launch (device_sources in CMakeLists.txt)
 
 template <class Kernel> void launch(std::int64_t, const Kernel&, int = 64) = delete;

@@ -137,4 +137,14 @@ inline void bucket_sort(const std::int32_t* bucket, std::int64_t n, std::int64_t
     run(n + 1, BeginKernel{sorted, n, buckets, begin});
 }
 
+inline std::int64_t scan(std::int64_t* number, std::int64_t n) {
+    std::int64_t last[2];  // the last number, and the sum of those before it
+    check(cudaMemcpy(last, number + n - 1, sizeof *last, cudaMemcpyDeviceToHost), "scan");
+    std::size_t bytes = 0;
+    check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, number, number, static_cast<int>(n)), "scan");
+    check(cub::DeviceScan::ExclusiveSum(scratch(4, bytes), bytes, number, number, static_cast<int>(n)), "scan");
+    check(cudaMemcpy(last + 1, number + n - 1, sizeof *last, cudaMemcpyDeviceToHost), "scan");
+    return last[0] + last[1];
+}
+
 }  // namespace brisance::exec::cuda

@@ -9,17 +9,8 @@ namespace brisance {
 
 namespace {
 
-/// Points before they are sorted: the points themselves, or where there is a period those and their images.
-struct Raw {
-    const double *x, *y, *z;
-    const std::int32_t* index;  ///< null: entry k is point k
-    const double* shift;
-    BRISANCE_HD std::int32_t point(std::int64_t k) const { return index ? index[k] : static_cast<std::int32_t>(k); }
-    BRISANCE_HD double shifted(std::int64_t k) const { return shift ? shift[k] : 0.0; }
-};
-
 struct BoxKernel {
-    Raw raw;
+    UnsortedPoints raw;
     BRISANCE_HD PointBox operator()(std::int64_t k) const {
         const std::int32_t i = raw.point(k);
         return box_of(raw.x[i], raw.y[i], raw.z[i] + raw.shifted(k));
@@ -27,7 +18,7 @@ struct BoxKernel {
 };
 
 struct CellKernel {
-    Raw raw;
+    UnsortedPoints raw;
     CellGridView grid;
     std::int32_t* cell_of;
     BRISANCE_HD void operator()(std::int64_t k) const {
@@ -40,7 +31,7 @@ struct CellKernel {
 }  // namespace
 
 void CellGrid::build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period) {
-    Raw raw{x, y, z, nullptr, nullptr};
+    UnsortedPoints raw{x, y, z, nullptr, nullptr};
     std::int64_t entries = n;
     if (period > 0) {
         const int images = 1 + static_cast<int>(reach / period);
@@ -76,35 +67,40 @@ void CellGrid::build(const double* x, const double* y, const double* z, std::int
     const PointBox box = exec::launch_sum(entries, PointBox{}, BoxKernel{raw});
     CellGridView& g = view_;
     g.entries = entries;
-    // A particle flung far out must not cost memory: cells grow until there are at most some per entry.
-    g.cell = cell;
-    double count = 0;
-    for (;;) {
-        count = 1;
+    g.rows = nullptr;
+    const auto size = static_cast<std::size_t>(entries);
+    for (auto* a : {&order_, &index_}) make_room(*a, size);
+    make_room(shift_, size);
+    g.index = index_.data();
+    g.shift = shift_.data();
+    // at most some cells per entry: in a full grid, else in a sparse one, else they grow
+    const double most = 16.0 * static_cast<double>(entries) + 4096;
+    for (g.cell = cell;; g.cell *= 1.5) {
+        double count = 1;
         for (int a = 0; a < 3; ++a) {
             g.min[a] = box.min[a];
             g.n[a] = entries == 0 ? 1 : 1 + static_cast<int>(std::min((box.max[a] - box.min[a]) / g.cell, 1e6));
             count *= g.n[a];
         }
-        if (count <= 16.0 * static_cast<double>(entries) + 4096) break;
-        g.cell *= 1.5;
+        if (count <= most) return sort_all(raw);
+        if (sparse_.build(g, raw, most, order_.data(), index_.data(), shift_.data())) return;
     }
-    const auto size = static_cast<std::size_t>(entries);
+}
+
+void CellGrid::sort_all(const UnsortedPoints& raw) {
+    CellGridView& g = view_;
     make_room(begin_, static_cast<std::size_t>(g.cells()) + 1);
-    for (auto* a : {&cell_of_, &order_, &index_}) make_room(*a, size);
-    make_room(shift_, size);
-    exec::launch(entries, CellKernel{raw, g, cell_of_.data()}, 1024);
-    exec::bucket_sort(cell_of_.data(), entries, g.cells(), order_.data(), begin_.data());
+    make_room(cell_of_, static_cast<std::size_t>(g.entries));
+    exec::launch(g.entries, CellKernel{raw, g, cell_of_.data()}, 1024);
+    exec::bucket_sort(cell_of_.data(), g.entries, g.cells(), order_.data(), begin_.data());
     const std::int32_t* const order = order_.data();
     std::int32_t* const index = index_.data();
     double* const shift = shift_.data();
-    exec::launch(entries, BRISANCE_KERNEL(std::int64_t k) {
+    exec::launch(g.entries, BRISANCE_KERNEL(std::int64_t k) {
         index[k] = raw.point(order[k]);
         shift[k] = raw.shifted(order[k]);
     }, 1024);
     g.begin = begin_.data();
-    g.index = index;
-    g.shift = shift;
 }
 
 }  // namespace brisance

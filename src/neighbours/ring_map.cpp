@@ -55,7 +55,7 @@ struct SpreadKernel {
 
 void RingMap::build(const CellGridView& grid, int depth) {
     view_ = {grid, nullptr};
-    if (depth == 0) return;
+    if (depth == 0 || grid.sparse()) return;
     for (auto* a : {&rings_, &between_}) make_room(*a, static_cast<std::size_t>(grid.cells()));
     const std::int64_t rows = static_cast<std::int64_t>(grid.n[1]) * grid.n[2];
     exec::launch(rows, OccupiedKernel{grid, depth, between_.data()});

@@ -22,7 +22,8 @@ struct RingMapView {
 
 class RingMap {
 public:
-    /// Looks `depth` rings far; cells that have nothing within them get depth + 1. With a depth of 0 there is no map, and every bound is 0.
+    /// Looks `depth` rings far; cells that have nothing within them get depth + 1. With a depth of 0, and of a sparse grid, there is
+    /// no map, and every bound is 0.
     void build(const CellGridView& grid, int depth);
     const RingMapView& view() const { return view_; }
 

@@ -9,29 +9,22 @@ namespace brisance {
 
 namespace {
 
-struct Block {
-    int i, j, k;
-};
-BRISANCE_HD Block block_of(const SupportMapView& m, std::int64_t b) {
-    return {static_cast<int>(b % m.n[0]), static_cast<int>(b / m.n[0] % m.n[1]), static_cast<int>(b / m.n[0] / m.n[1])};
-}
-
-/// The largest support in a block.
+/// The largest supports in the blocks of a row of them along x.
 struct OwnKernel {
     SupportMapView map;
     const float* h;
     float* own;
-    BRISANCE_HD void operator()(std::int64_t b) const {
+    BRISANCE_HD void operator()(std::int64_t r) const {
         const CellGridView& g = map.grid;
-        const Block at = block_of(map, b);
-        const auto end = [&](int block, int axis) { return std::min((block + 1) * map.block, g.n[axis]); };
-        float most = 0;
-        for (int k = at.k * map.block; k < end(at.k, 2); ++k)
-            for (int j = at.j * map.block; j < end(at.j, 1); ++j) {
-                const std::int64_t* const row = g.begin + g.row(j, k);
-                for (std::int64_t q = row[at.i * map.block]; q < row[end(at.i, 0)]; ++q) most = std::max(most, h[q]);
+        const int j0 = static_cast<int>(r % map.n[1]) * map.block, k0 = static_cast<int>(r / map.n[1]) * map.block;
+        float* const mine = own + r * map.n[0];
+        for (int i = 0; i < map.n[0]; ++i) mine[i] = 0;
+        g.each_row(j0, std::min(j0 + map.block, g.n[1]) - 1, k0, std::min(k0 + map.block, g.n[2]) - 1, [&](const CellRow& row) {
+            for (int i = row.first / map.block; i * map.block < row.end; ++i) {
+                const CellGridView::Range range = g.range(row, i * map.block, (i + 1) * map.block);
+                for (std::int64_t q = range.first; q < range.last; ++q) mine[i] = std::max(mine[i], h[q]);
             }
-        own[b] = most;
+        });
     }
 };
 
@@ -40,11 +33,11 @@ struct AroundKernel {
     const float* own;
     float* largest;
     BRISANCE_HD void operator()(std::int64_t b) const {
-        const Block at = block_of(map, b);
+        const int at[3] = {static_cast<int>(b % map.n[0]), static_cast<int>(b / map.n[0] % map.n[1]), static_cast<int>(b / map.n[0] / map.n[1])};
         float most = 0;
-        for (int k = std::max(at.k - 1, 0); k <= std::min(at.k + 1, map.n[2] - 1); ++k)
-            for (int j = std::max(at.j - 1, 0); j <= std::min(at.j + 1, map.n[1] - 1); ++j)
-                for (int i = std::max(at.i - 1, 0); i <= std::min(at.i + 1, map.n[0] - 1); ++i) most = std::max(most, own[map.at(i, j, k)]);
+        for (int k = std::max(at[2] - 1, 0); k <= std::min(at[2] + 1, map.n[2] - 1); ++k)
+            for (int j = std::max(at[1] - 1, 0); j <= std::min(at[1] + 1, map.n[1] - 1); ++j)
+                for (int i = std::max(at[0] - 1, 0); i <= std::min(at[0] + 1, map.n[0] - 1); ++i) most = std::max(most, own[map.at(i, j, k)]);
         largest[b] = most;
     }
 };
@@ -58,12 +51,15 @@ void SupportMap::build(const CellGridView& grid, const float* h, double h_max) {
     if (grid.cell >= h_max) return;
     view_.block = 1 + static_cast<int>(2 * h_max / grid.cell);  // a pair is no farther apart than a block is wide
     std::int64_t blocks = 1;
-    for (int a = 0; a < 3; ++a) {
-        view_.n[a] = (grid.n[a] + view_.block - 1) / view_.block;
-        blocks *= view_.n[a];
+    for (;; view_.block *= 2, blocks = 1) {
+        for (int a = 0; a < 3; ++a) {
+            view_.n[a] = (grid.n[a] + view_.block - 1) / view_.block;
+            blocks *= view_.n[a];
+        }
+        if (blocks <= grid.entries + 64) break;  // most would hold nothing
     }
     for (auto* a : {&own_, &largest_}) make_room(*a, static_cast<std::size_t>(blocks));
-    exec::launch(blocks, OwnKernel{view_, h, own_.data()}, 1);
+    exec::launch(static_cast<std::int64_t>(view_.n[1]) * view_.n[2], OwnKernel{view_, h, own_.data()}, 1);
     exec::launch(blocks, AroundKernel{view_, own_.data(), largest_.data()});
     view_.largest = largest_.data();
 }

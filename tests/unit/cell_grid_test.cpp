@@ -3,6 +3,7 @@
 #include "core_helpers.h"
 #include "neighbours/ring_map.h"
 
+#include <array>
 #include <map>
 #include <set>
 
@@ -90,13 +91,42 @@ TEST(CellGrid, ClustersAndPointsFarAway) {
     EXPECT_TRUE(found);
 }
 
+// A plume around a cluster: the cells stay as small as the cluster wants them, and the points stand as in a full grid.
+TEST(CellGrid, SparseFindsEveryPointInTheOrderOfAFullGrid) {
+    Random random(9);
+    for (const double period : {0.0, 2.5}) {
+        Points p = random_points(random, 600, -0.4, 0.4, 0, period > 0 ? period : 3);
+        for (int i = 0; i < 60; ++i) p.add(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(0, period > 0 ? period : 30));
+        compare(p, 0.1, 0.25, 0, period, random, 90);
+        CellGrid grid;
+        grid.build(p.x.data(), p.y.data(), p.z.data(), p.size(), 0.1, 0.25, 0, period);
+        const CellGridView& v = grid.view();
+        ASSERT_TRUE(v.sparse());
+        EXPECT_EQ(v.cell, 0.1);
+        using Key = std::array<std::int64_t, 5>;  // strip, z, row in the strip, x, number
+        Key before{-1, 0, 0, 0, 0};
+        for (std::int64_t k = 0; k < grid.entries(); ++k) {
+            const auto i = static_cast<std::size_t>(grid.index(k));
+            const int y = v.place(p.y[i], 1), z = v.place(p.z[i] + grid.shift(k), 2);
+            const Key here{y / v.strip, z, y % v.strip, v.place(p.x[i], 0), grid.image(k) ? p.size() : grid.index(k)};
+            EXPECT_LE(before, here) << k;
+            before = here;
+        }
+    }
+    // few points around: full
+    const Points p = random_points(random, 600, -0.4, 0.4, 0, 1);
+    CellGrid grid;
+    grid.build(p.x.data(), p.y.data(), p.z.data(), p.size(), 0.1, 0.25);
+    EXPECT_FALSE(grid.view().sparse());
+}
+
 // The map of rings against the distance to every point: never more, and where points are near it knows.
 TEST(RingMap, BoundsTheDistanceToTheNextPoint) {
     Random random(8);
     for (const double period : {0.0, 2.5})
         for (const int depth : {1, 3, 5})
             for (const int n : {0, 7, 3000}) {
-                const double cell = random.uniform(0.1, 0.3), reach = depth * cell;
+                const double cell = random.uniform(0.15, 0.3), reach = depth * cell;  // with 7 points the grid is sparse, and has no map
                 // many of them in a corner of the grid, so that most of it is empty
                 Points p = random_points(random, n, -3, n < 300 ? 3 : -1, 0, period > 0 ? period : 3);
                 p.add(3, 3, 2);

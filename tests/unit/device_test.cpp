@@ -103,6 +103,25 @@ TEST(Launch, SortsIntoBucketsAndKeepsTheOrderWithin) {
     exec::set_threads(threads);
 }
 
+TEST(Launch, ScansInPlace) {
+    const int threads = exec::threads();
+    for (const std::int64_t n : {1, 5000, 70001})
+        for (const int t : {1, 3}) {
+            exec::set_threads(t);
+            Array<std::int64_t> number(static_cast<std::size_t>(n));
+            law_test::Random random(5);
+            for (std::int64_t& a : number) a = static_cast<std::int64_t>(random.uniform(0, 9));
+            std::vector<std::int64_t> expected(number.size());
+            std::exclusive_scan(number.begin(), number.end(), expected.begin(), std::int64_t{0});
+            const std::int64_t all = expected.back() + number.back();
+            EXPECT_EQ(exec::scan(number.data(), n), all);
+            exec::wait();
+            EXPECT_TRUE(std::equal(number.begin(), number.end(), expected.begin())) << n << " items, " << t << " threads";
+        }
+    exec::set_threads(threads);
+    EXPECT_EQ(exec::scan(nullptr, 0), 0);
+}
+
 #ifdef BRISANCE_SPLIT
 TEST(PretendDeviceDeathTest, StopsTheProcessorWithinAStep) {
     testing::GTEST_FLAG(death_test_style) = "threadsafe";

@@ -48,12 +48,13 @@ struct Sorted {
 
 TEST(NeighbourLists, HoldAllPairsWhateverTheSupports) {
     Random random(8);
-    for (const double widest : {1.0, 1.2, 5.0}) {
+    for (const double widest : {1.0, 1.2, 5.0, 5.1}) {
         // a hundredth of them, all in one corner, is wide: gas that vents
+        const bool plume = widest > 5;  // and some are far out: the grid is sparse
         Sorted c;
         const double usual = 0.05;
         for (int n = 0; n < 3000; ++n) {
-            const double p[3] = {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
+            const double wide = plume && n > 2900 ? 6 : 1, p[3] = {wide * random.uniform(0, 1), wide * random.uniform(0, 1), wide * random.uniform(0, 1)};
             c.x.push_back(p[0]);
             c.y.push_back(p[1]);
             c.z.push_back(p[2]);
@@ -65,6 +66,7 @@ TEST(NeighbourLists, HoldAllPairsWhateverTheSupports) {
         c.y[1] = c.y[0];
         c.z[1] = c.z[0];
         c.sort(usual, 2 * h_max);
+        EXPECT_EQ(c.grid.view().sparse(), plume);
         NeighbourLists lists;
         lists.build(c.grid.view(), {c.place[0].data(), c.place[1].data(), c.place[2].data(), c.half.data(), c.records.data(), h_max}, All{});
         const NeighbourListsView& v = lists.view();
