@@ -3,6 +3,7 @@
 
 #include "analysis/failure_cause.h"
 #include "app/fracture.h"
+#include "app/leaks.h"
 #include "base/error.h"
 #include "math/eigen.h"
 #include "math/kernel.h"
@@ -48,80 +49,6 @@ std::uint8_t cause_of(const SolidBody<R>& b, std::size_t i, const AnalysisData& 
 }
 
 }  // namespace
-
-template <class R>
-Leaks find_leaks(const World<R>& w) {
-    if (w.fluids.empty() || w.solids.empty()) return {};
-    double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
-    for (const FluidPart& f : w.fluids)
-        for (std::size_t i = 0; i < f.body.mass.size(); ++i) {
-            low_x = std::min(low_x, f.body.x[0][i]);
-            high_x = std::max(high_x, f.body.x[0][i]);
-            low_y = std::min(low_y, f.body.x[1][i]);
-            high_y = std::max(high_y, f.body.x[1][i]);
-        }
-    // The solids near the fluids, as points with volumes and supports. Each has a grid of its own: in one for all, a fine liner would be
-    // searched as far as the coarse rock behind it reaches.
-    struct Near {
-        Array<double> x, y, z, volume, hx;
-        double hz = 0, reach = 0;
-        CellGrid grid;
-    };
-    std::vector<Near> solids(w.solids.size());
-    for (std::size_t n = 0; n < solids.size(); ++n) {
-        const SolidBody<R>& body = w.solids[n].body;
-        Near& near = solids[n];
-        near.hz = 1.2 * body.layout.dz;
-        near.reach = 2 * near.hz;
-        for (const Column& c : body.layout.columns) {
-            const double margin = 3 * c.spacing;
-            if (c.x < low_x - margin || c.x > high_x + margin || c.y < low_y - margin || c.y > high_y + margin) continue;
-            near.reach = std::max(near.reach, 2.4 * c.spacing);
-            for (int k = 0; k < c.layers; ++k) {
-                const auto i = static_cast<std::size_t>(c.start + k);
-                if (!(body.layout.flags[i] & slot_own)) continue;
-                near.x.push_back(c.x + static_cast<double>(body.u[0][i]));
-                near.y.push_back(c.y + static_cast<double>(body.u[1][i]));
-                near.z.push_back(c.z0 + k * body.layout.dz + static_cast<double>(body.u[2][i]));
-                near.volume.push_back(body.volume(c));
-                near.hx.push_back(1.2 * c.spacing);
-            }
-        }
-        near.grid.build(near.x.data(), near.y.data(), near.z.data(), static_cast<std::int64_t>(near.x.size()), 0.5 * near.reach, near.reach, w.z_low, w.period);
-    }
-    Leaks leaks;
-    for (std::size_t part = 0; part < w.fluids.size(); ++part) {
-        const FluidPart& f = w.fluids[part];
-        std::vector<std::uint8_t> leaked(f.body.mass.size());
-        exec::for_each(f.body.size(), [&](std::int64_t n) {
-            const auto i = static_cast<std::size_t>(n);
-            double all = 0, most = 0;
-            const double px = f.body.x[0][i], py = f.body.x[1][i], pz = f.body.x[2][i];
-            for (const Near& s : solids) {
-                double colour = 0;
-                s.grid.ranges(px, py, pz, s.reach, [&](std::int64_t first, std::int64_t last) {
-                    for (std::int64_t k = first; k < last; ++k) {
-                        const auto j = static_cast<std::size_t>(s.grid.index(k));
-                        const double dx = px - s.x[j], dy = py - s.y[j], dz = pz - s.z[j] - s.grid.shift(k), hx = s.hx[j];
-                        const double q2 = (dx * dx + dy * dy) / (hx * hx) + dz * dz / (s.hz * s.hz);
-                        if (q2 < 4) colour += s.volume[j] * kernel::sigma_3d / (hx * hx * s.hz) * kernel::shape(std::sqrt(q2));
-                    }
-                });
-                all += colour;
-                most = std::max(most, colour);
-            }
-            // In one solid: at its wall the colour is a half. Between two: it is one; at a liner's inner wall a coarse rock behind it adds up to a third.
-            leaked[i] = most > 0.6 || all > 0.85;
-        });
-        const std::int64_t count = std::count(leaked.begin(), leaked.end(), 1);
-        if (count > 0 && leaks.count == 0) {
-            leaks.part = part;
-            leaks.particle = static_cast<std::size_t>(std::find(leaked.begin(), leaked.end(), 1) - leaked.begin());
-        }
-        leaks.count += count;
-    }
-    return leaks;
-}
 
 template <class R>
 Recorder<R>::Recorder(const Case& c, const World<R>& w, const RunDirectory& run, bool go_on)
@@ -459,7 +386,5 @@ void Recorder<R>::write_snapshot(const World<R>& w) {
 
 template class Recorder<double>;
 template class Recorder<float>;
-template Leaks find_leaks(const World<double>&);
-template Leaks find_leaks(const World<float>&);
 
 }  // namespace brisance

@@ -92,7 +92,4 @@ private:
     Leaks leaks_;
 };
 
-/// Fluid particles that stand inside a solid: the solids' mass fraction around them, sum V W, exceeds 0.6 (it is a half on a wall).
-template <class R> Leaks find_leaks(const World<R>& w);
-
 }  // namespace brisance

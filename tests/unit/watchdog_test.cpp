@@ -3,7 +3,7 @@
 // particle, its place and state, the usual causes and the remedy.
 #include "core_helpers.h"
 
-#include "app/recorder.h"
+#include "app/leaks.h"
 #include "integrate/watchdog.h"
 
 #include <functional>
