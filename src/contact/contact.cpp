@@ -19,13 +19,16 @@ void FluidForces::begin(const FluidBody& body) {
         }
     const FluidView b = view(body);
     double *const x = fx.data(), *const y = fy.data(), *const z = fz.data(), *const s = spacing.data(), *const m = modulus.data(), *const p = press.data(), *const w = near.data();
-    const double widest = body.options.h_max * body.spacing;
+    const double widest = body.options.h_max * body.spacing, narrowest = body.options.h_min * body.spacing;
     largest_spacing = exec::launch_max(b.n, 0.0, BRISANCE_KERNEL(std::int64_t i) {
         x[i] = y[i] = z[i] = p[i] = w[i] = 0;
         s[i] = std::min(b.current_spacing(i), widest);
-        m[i] = std::max(b.rho_now[i] * b.sound[i] * b.sound[i], 1e-9);
+        // The step counts on supports, which do not fall below h_min. What is crushed further would ring: K d/m = (c/kappa)^2 d/kappa.
+        const double crushed = std::min(s[i] / narrowest, 1.0);
+        m[i] = std::max(b.rho_now[i] * b.sound[i] * b.sound[i] * crushed * crushed * crushed, 1e-9);
         return s[i];
     });
+    groups.build(b.x[0], b.x[1], b.x[2], b.n, 3 * body.spacing);
 }
 
 double clearance(const Places& a, const Places& b, double range, double horizon, double z_low, double period) {

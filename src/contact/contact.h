@@ -15,7 +15,7 @@
 // particles held off by their own softness. Damping acts on approach and separation while pressed; no adhesion. Every force has its reaction, so momentum is exact; the work goes into the audit.
 #pragma once
 
-#include "neighbours/cell_grid.h"
+#include "contact/node_groups.h"
 #include "neighbours/column_pairs.h"
 #include "particles/mirrored.h"
 #include "particles/solid_body.h"
@@ -45,6 +45,8 @@ struct Surface {
     Array<double> depth;                    ///< how far behind the wall a node is still pushed back, mm
     Array<double> face;                     ///< 0: a side; 1, -1: an upper or lower end
     Array<double> up, down;                 ///< of a side's point: how far it is to the ends of its column, mm; without end in a slice
+    Array<std::int64_t> group;              ///< where each group of points that stand together begins, and the end of the last
+    std::size_t side_groups = 0;
     std::size_t sides = 0, upper = 0;       ///< how many are sides; and how many sides or upper ends. A particle has no two points of a kind
     double coarsest = 0;                    ///< mm, largest of spacing and dz
     double density = 0;                     ///< g/cm3, at rest
@@ -96,6 +98,7 @@ struct FluidForces {
     Array<double> fx, fy, fz;          ///< mN
     Array<double> spacing, modulus;    ///< current spacing kappa, mm (no wider than its support may grow), and rho c^2, GPa, of each particle
     Array<double> press, near;         ///< sums over the fluid that touches a particle: overlap x pressure, and overlap, mm
+    NodeGroups groups;                 ///< particles that stand together, some dozen
     double largest_spacing = 0;
     double heat = 0;                   ///< of what the pressure around does to particles without their own kind (FluidSolver::equalise), W = J/us
     /// No forces, and the spacing and stiffness of the present state.

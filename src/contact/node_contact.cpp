@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/chosen_points.h"
+#include "contact/gathered.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 
@@ -36,6 +37,7 @@ struct Side {
     const double *spacing, *modulus;
     double *f[3], *press, *near;
     MirroredView points;
+    NodeGroupsView groups;
     Layer layer[layers];
 };
 
@@ -47,7 +49,7 @@ struct Sorted {
 
 Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, std::int64_t looks) {
     sorted.points.build(b, largest);
-    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, f.press.data(), f.near.data(), sorted.points.view(), {}};
+    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, f.press.data(), f.near.data(), sorted.points.view(), f.groups.view(), {}};
     const MirroredView points = s.points;
     const double* const spacing = s.spacing;
     const std::int64_t n = sorted.points.size();
@@ -70,38 +72,72 @@ Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, st
     return s;
 }
 
-/// What a particle of one side feels of the other.
+/// What a group of particles of one side feels of the other.
 struct NodeKernel {
     Side me, other;
     ContactOptions o;
-    BRISANCE_HD Touched operator()(std::int64_t i) const {
-        const FluidView& p = me.body;
-        Touched local;
-        Felt felt;
+    Touched* touched;
+    BRISANCE_HD void operator()(std::int64_t g) const {
+        PointBox box;
+        double widest = 0;
+        me.groups.each(g, [&](std::int64_t i) {
+            box += box_of(me.body.x[0][i], me.body.x[1][i], me.body.x[2][i]);
+            widest = std::max(widest, me.spacing[i]);
+        });
+        touched[g] = {};
+        Gathered<6> near;  // place, spacing, point, shift
+        bool any = false;
         for (const Layer& layer : other.layer) {
-            const double reach = 0.5 * (me.spacing[i] + layer.widest);
-            const CellGridView& grid = layer.map.grid;
-            if (grid.entries == 0 || layer.map.bound(p.x[0][i], p.x[1][i], p.x[2][i]) >= reach) continue;
-            grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], reach, [&](std::int64_t first, std::int64_t last) {
-                for (std::int64_t k = first; k < last; ++k) touch(i, layer, k, felt, local);
+            const double reach = 0.5 * (widest + layer.widest);
+            if (layer.map.grid.entries == 0 || layer.map.bound(middle(box, 0), middle(box, 1), middle(box, 2)) >= reach + half_diagonal(box)) continue;
+            ranges(layer.map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
+                any = true;
+                for (std::int64_t k = first; k < last && near.all; ++k) {
+                    const std::int64_t point = layer.points[layer.map.grid.index[k]];
+                    const double shift = layer.map.grid.shift[k], x = other.points.place[0][point], y = other.points.place[1][point], z = other.points.place[2][point] + shift;
+                    if (apart2(box, x, y, z) < reach * reach) near.take({x, y, z, other.spacing[other.points.particle(point)], static_cast<double>(point), shift});
+                }
             });
         }
-        for (int a = 0; a < 3; ++a) me.f[a][i] += felt.f[a];
-        me.press[i] += felt.press;
-        me.near[i] += felt.near;
-        return local;
+        if (!any || (near.all && near.count == 0)) return;
+        const SortedView<6> v = near.view();
+        me.groups.each(g, [&](std::int64_t i) {
+            Felt felt;
+            if (near.all) touch_gathered(i, v, near.count, felt, touched[g]);
+            else touch_all(i, felt, touched[g]);
+            for (int a = 0; a < 3; ++a) me.f[a][i] += felt.f[a];
+            me.press[i] += felt.press;
+            me.near[i] += felt.near;
+        });
     }
 
 private:
     struct Felt {
         double f[3] = {0, 0, 0}, press = 0, near = 0;
     };
-    /// Particle i and entry k of a layer of the other side.
-    BRISANCE_HD void touch(std::int64_t i, const Layer& layer, std::int64_t k, Felt& felt, Touched& local) const {
+    BRISANCE_HD static double middle(const PointBox& box, int axis) { return 0.5 * (box.min[axis] + box.max[axis]); }
+    BRISANCE_HD void touch_gathered(std::int64_t i, const SortedView<6>& near, int count, Felt& felt, Touched& local) const {
+        using V = Pack<double>;
+        const double x = me.body.x[0][i], y = me.body.x[1][i], z = me.body.x[2][i], kappa = me.spacing[i];
+        for (int q = 0; q < count; q += lanes<double>) {
+            const V dx = x - near(0, q), dy = y - near(1, q), dz = z - near(2, q), d = 0.5 * (kappa + near(3, q));
+            each_lane(lane_bits((dx * dx + dy * dy + dz * dz < d * d) & lanes_before<V>(q, count)), [&](int l) {
+                touch(i, static_cast<std::int64_t>(near.columns[4][q + l]), near.columns[5][q + l], felt, local);
+            });
+        }
+    }
+    BRISANCE_HD void touch_all(std::int64_t i, Felt& felt, Touched& local) const {
+        const FluidView& p = me.body;
+        for (const Layer& layer : other.layer)
+            layer.map.grid.ranges(p.x[0][i], p.x[1][i], p.x[2][i], 0.5 * (me.spacing[i] + layer.widest), [&](std::int64_t first, std::int64_t last) {
+                for (std::int64_t k = first; k < last; ++k) touch(i, layer.points[layer.map.grid.index[k]], layer.map.grid.shift[k], felt, local);
+            });
+    }
+    /// Particle i and a point of the other side, shifted along z.
+    BRISANCE_HD void touch(std::int64_t i, std::int64_t point, double shift, Felt& felt, Touched& local) const {
         const FluidView &p = me.body, &q = other.body;
-        const std::int64_t point = layer.points[layer.map.grid.index[k]], j = other.points.particle(point);
-        const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point],
-                     dz = p.x[2][i] - other.points.place[2][point] - layer.map.grid.shift[k];
+        const std::int64_t j = other.points.particle(point);
+        const double dx = p.x[0][i] - other.points.place[0][point], dy = p.x[1][i] - other.points.place[1][point], dz = p.x[2][i] - other.points.place[2][point] - shift;
         const double r2 = dx * dx + dy * dy + dz * dz, d = 0.5 * (me.spacing[i] + other.spacing[j]);
         if (r2 >= d * d || r2 < 1e-24) return;
         const double r = std::sqrt(r2), overlap = d - r, deep = overlap / d;
@@ -127,11 +163,16 @@ private:
 
 ContactReport node_contact(const FluidBody& a, const FluidBody& b, const ContactOptions& o, FluidForces& fa, FluidForces& fb) {
     static Sorted sorted[2];
+    static Array<Touched> touched;
     const double largest = std::max(fa.largest_spacing, fb.largest_spacing);
     const Side sides[2] = {side(a, fa, sorted[0], largest, b.size()), side(b, fb, sorted[1], largest, a.size())};
     ContactReport report;
     for (int m = 0; m < 2; ++m) {
-        const Touched t = exec::launch_sum(sides[m].body.n, Touched{}, NodeKernel{sides[m], sides[1 - m], o});
+        const std::int64_t groups = sides[m].groups.size;
+        make_room(touched, static_cast<std::size_t>(groups));
+        Touched* const of = touched.data();
+        exec::launch(groups, NodeKernel{sides[m], sides[1 - m], o, of}, few_groups);
+        const Touched t = exec::launch_sum(groups, Touched{}, BRISANCE_KERNEL(std::int64_t g) { return of[g]; });
         report.stored += 0.5 * t.stored;
         report.penetration = std::max(report.penetration, t.overlap);
         report.touching = t.touching;

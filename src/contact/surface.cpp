@@ -55,6 +55,20 @@ Surface make_surface(const SolidBody<R>& b) {
         each(slot_low, [&](std::size_t c, const Column& column, int k) { add(c, k, -1, column.area, below(column), 1.5 * dz); });
     }
     for (std::size_t i = 0; i < s.size(); ++i) s.coarsest = std::max({s.coarsest, s.spacing[i], s.dz[i]});
+    // Points of a column stand one after the other, and so do columns that are near each other.
+    const auto apart = [&](std::size_t p, std::size_t q) {
+        const Column &a = b.layout.columns[static_cast<std::size_t>(s.column[p])], &c = b.layout.columns[static_cast<std::size_t>(s.column[q])];
+        return std::max(std::hypot(a.x - c.x, a.y - c.y) / s.spacing[p], std::abs(s.z_reference[p] - s.z_reference[q]) / s.dz[p]);
+    };
+    constexpr std::size_t most_of_a_group = 8;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        if (i == s.sides) s.side_groups = s.group.size();
+        const bool first = i == 0 || i == s.sides || i == s.upper;
+        if (first || i - static_cast<std::size_t>(s.group.back()) == most_of_a_group || apart(static_cast<std::size_t>(s.group.back()), i) > most_of_a_group)
+            s.group.push_back(static_cast<std::int64_t>(i));
+    }
+    if (s.sides == s.size()) s.side_groups = s.group.size();
+    s.group.push_back(static_cast<std::int64_t>(s.size()));
     for (auto* a : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.vx, &s.vy, &s.vz, &s.fx, &s.fy, &s.fz, &s.ix, &s.iy, &s.iz, &s.jx, &s.jy, &s.jz}) a->assign(s.size(), 0);
     return s;
 }

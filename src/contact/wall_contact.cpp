@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/chosen_points.h"
+#include "contact/gathered.h"
 #include "contact/stiffness.h"
 #include "exec/launch.h"
 #include "math/kernel.h"
 #include "math/pack.h"
 #include "math/vec.h"
-#include "neighbours/box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,7 @@ struct Nodes {
     const double *wall_area, *wall_spacing;
     const double* normal[3];        ///< points of a wall have normals, and touch only walls that face them
     double* f[3];
+    NodeGroupsView groups;
     std::int64_t n;
     double largest_radius;
 
@@ -38,31 +39,6 @@ struct Nodes {
 /// What node i feels of the wall: force, the normaliser of its weights, and the kind of points that they belong to.
 struct Touch {
     double fx, fy, fz, weights, face, stored, overlap;
-};
-
-/// Columns of numbers in the order of a grid's entries, with a pack of room behind the last.
-template <int n>
-struct SortedView {
-    double* columns[n];
-    BRISANCE_HD V operator()(int c, std::int64_t k) const { return load<V>(columns[c] + k); }
-    BRISANCE_HD void put(std::int64_t k, const double (&row)[n]) const {
-        for (int c = 0; c < n; ++c) columns[c][k] = row[c];
-    }
-};
-template <int n>
-class Sorted {
-public:
-    SortedView<n> room(std::int64_t entries) {
-        SortedView<n> v;
-        for (std::size_t c = 0; c < n; ++c) {
-            make_room(columns_[c], static_cast<std::size_t>(entries + width));
-            v.columns[c] = columns_[c].data();
-        }
-        return v;
-    }
-
-private:
-    std::array<Array<double>, n> columns_;
 };
 
 /// A point of the wall, or a pack of them: place, normal, shape of its kernel, and how far behind it a node is still pushed back.
@@ -120,24 +96,58 @@ struct WallKernel {
     ContactOptions o;
     Touch* touch;
 
-    BRISANCE_HD void operator()(std::int64_t i) const {
-        Touch t{};
-        feel(i, t);
-        touch[i] = t;
+    BRISANCE_HD void operator()(std::int64_t g) const {
+        PointBox box;
+        double radius = 0;
+        nodes.groups.each(g, [&](std::int64_t i) {
+            touch[i] = {};
+            box += box_of(nodes.x[0][i], nodes.x[1][i], nodes.x[2][i]);
+            radius = std::max(radius, nodes.radius(i));
+        });
+        if (!close(box, radius)) return;
+        Gathered<17> near;
+        const double reach = extent.reach(radius);
+        ranges(map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t q = first; q < last && near.all; q += width)
+                near.take(w, q, lane_bits((apart2(box, w(0, q), w(1, q), w(2, q)) < reach * reach) & lanes_before<V>(q, last)));
+        });
+        const SortedView<17> v = near.view();
+        nodes.groups.each(g, [&](std::int64_t i) {
+            if (near.all) feel(i, [&](double, auto&& f) { f(v, 0, near.count); });
+            else feel(i, [&](double r, auto&& f) {
+                map.grid.ranges(nodes.x[0][i], nodes.x[1][i], nodes.x[2][i], r, [&](std::int64_t first, std::int64_t last) { f(w, first, last); });
+            });
+        });
     }
 
 private:
+    /// Most nodes are far from the wall: is any point of it near the box of some, with none of them well in front?
+    BRISANCE_HD bool close(const PointBox& box, double radius) const {
+        const double near = extent.near(radius);
+        const Vec3<double> middle{0.5 * (box.min[0] + box.max[0]), 0.5 * (box.min[1] + box.max[1]), 0.5 * (box.min[2] + box.max[2])}, half{box.max[0] - middle.x, box.max[1] - middle.y, box.max[2] - middle.z};
+        if (map.bound(middle.x, middle.y, middle.z) >= near + norm(half)) return false;
+        bool any = false;
+        ranges(map.grid, box, near, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t q = first; q < last && !any; q += width) {
+                const V nx = w(3, q), ny = w(4, q), nz = w(5, q);
+                const V ahead = (middle.x - w(0, q)) * nx + (middle.y - w(1, q)) * ny + (middle.z - w(2, q)) * nz - half.x * vabs(nx) - half.y * vabs(ny) - half.z * vabs(nz);
+                any = any_lane((apart2(box, w(0, q), w(1, q), w(2, q)) < near * near) & (ahead < 1.5 * radius + 0.25 * w(6, q)) & lanes_before<V>(q, last));
+            }
+        });
+        return any;
+    }
     /// The weighted plane of the points of one kind; without weights where the node is beside it.
     struct Plane {
         double weights = 0, gap = 0, modulus = 0, face = 0;
         Vec3<double> normal, velocity;
     };
-    /// `others`: set where there are points of another kind in reach.
-    BRISANCE_HD Plane seen(std::int64_t i, const Vec3<V>& at, double face, bool& others) const {
+    /// `points`: calls its function for the columns and ranges of them that hold the points in reach; `others`: set where some are of another kind.
+    template <class Points>
+    BRISANCE_HD Plane seen(std::int64_t i, const Vec3<V>& at, double face, const Points& points, bool& others) const {
         const double reached = nodes.radius(i);
         V weights{}, gaps{}, modulus{}, beside{}, x{}, y{};
         Vec3<V> normals, velocities;
-        map.grid.ranges(nodes.x[0][i], nodes.x[1][i], nodes.x[2][i], extent.reach(reached), [&](std::int64_t first, std::int64_t last) {
+        points(extent.reach(reached), [&](const SortedView<17>& w, std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const WallPoint s{{w(0, q), w(1, q), w(2, q)}, {w(3, q), w(4, q), w(5, q)}, w(6, q), w(7, q), w(8, q), w(9, q)};
                 const V facing = nodes.normal[0] ? nodes.normal[0][i] * s.normal.x + nodes.normal[1][i] * s.normal.y + nodes.normal[2][i] * s.normal.z : broadcast<V>(-1.0);
@@ -176,14 +186,13 @@ private:
         plane.velocity = per * Vec3<double>{hsum(velocities.x), hsum(velocities.y), hsum(velocities.z)};
         return plane;
     }
-    BRISANCE_HD void feel(std::int64_t i, Touch& t) const {
+    template <class Points>
+    BRISANCE_HD void feel(std::int64_t i, const Points& points) const {
         const double x = nodes.x[0][i], y = nodes.x[1][i], z = nodes.x[2][i], reached = nodes.radius(i);
         const Vec3<V> at{broadcast<V>(x), broadcast<V>(y), broadcast<V>(z)};
         const double near = extent.near(reached);
-        // most nodes are far from the wall: is any point of it near, with the node not well in front?
-        if (map.bound(x, y, z) >= near) return;
         bool close = false;
-        map.grid.ranges(x, y, z, near, [&](std::int64_t first, std::int64_t last) {
+        points(near, [&](const SortedView<17>& w, std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last && !close; q += width) {
                 const Vec3<V> d{at.x - w(0, q), at.y - w(1, q), at.z - w(2, q)};
                 const V ahead = d.x * w(3, q) + d.y * w(4, q) + d.z * w(5, q);
@@ -193,14 +202,15 @@ private:
         if (!close) return;
         // at an edge, as the rim of a borehole, a node is outside of the face that it is farther in front of
         bool ends = false;
-        Plane plane = seen(i, at, 0, ends);
+        Plane plane = seen(i, at, 0, points, ends);
         if (ends)
             for (const double face : {1.0, -1.0}) {
-                const Plane end = seen(i, at, face, ends);
+                const Plane end = seen(i, at, face, points, ends);
                 if (end.weights > 0 && (!(plane.weights > 0) || end.gap > plane.gap)) plane = end;
             }
         const double overlap = reached - plane.gap;
         if (!(plane.weights > 0 && overlap > 0)) return;
+        Touch& t = touch[i];
         t.weights = plane.weights;
         t.face = plane.face;
         const Vec3<double> normal = plane.normal, relative = Vec3<double>{nodes.v[0][i], nodes.v[1][i], nodes.v[2][i]} - plane.velocity;
@@ -255,22 +265,39 @@ struct NodeRows {
     }
 };
 
-/// The reaction on a point of the wall, with the weights of the action.
+/// The reaction on a group of points of the wall, with the weights of the action.
 struct ReactionKernel {
     SurfaceView wall;
-    const std::int32_t* active;
+    NodeGroupsView groups;
     RingMapView map;
     SortedView<11> p;
     double reach;
     bool faces;
-    BRISANCE_HD void operator()(std::int64_t m) const {
-        const std::int32_t j = active[m];
-        if (map.bound(wall.x[j], wall.y[j], wall.z[j]) >= reach) return;
+    BRISANCE_HD void operator()(std::int64_t g) const {
+        PointBox box;
+        groups.each(g, [&](std::int64_t j) { box += box_of(wall.x[j], wall.y[j], wall.z[j]); });
+        if (map.bound(0.5 * (box.min[0] + box.max[0]), 0.5 * (box.min[1] + box.max[1]), 0.5 * (box.min[2] + box.max[2])) >= reach + half_diagonal(box)) return;
+        Gathered<11> near;
+        ranges(map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t q = first; q < last && near.all; q += width)
+                near.take(p, q, lane_bits((apart2(box, p(0, q), p(1, q), p(2, q)) < reach * reach) & lanes_before<V>(q, last)));
+        });
+        if (near.all && near.count == 0) return;
+        const SortedView<11> v = near.view();
+        groups.each(g, [&](std::int64_t j) {
+            if (near.all) react(j, [&](auto&& f) { f(v, 0, near.count); });
+            else react(j, [&](auto&& f) { map.grid.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) { f(p, first, last); }); });
+        });
+    }
+
+private:
+    template <class Points>
+    BRISANCE_HD void react(std::int64_t j, const Points& points) const {
         const WallPoint s{{broadcast<V>(wall.x[j]), broadcast<V>(wall.y[j]), broadcast<V>(wall.z[j])},
                           {broadcast<V>(wall.n[0][j]), broadcast<V>(wall.n[1][j]), broadcast<V>(wall.n[2][j])},
                           broadcast<V>(wall.spacing[j]), broadcast<V>(wall.dz[j]), broadcast<V>(wall.depth[j]), broadcast<V>(wall.area[j])};
         Vec3<V> f;
-        map.grid.ranges(wall.x[j], wall.y[j], wall.z[j], reach, [&](std::int64_t first, std::int64_t last) {
+        points([&](const SortedView<11>& p, std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last; q += width) {
                 const V facing = faces ? p(4, q) * s.normal.x + p(5, q) * s.normal.y + p(6, q) * s.normal.z : broadcast<V>(-1.0);
                 V gap;
@@ -287,8 +314,8 @@ struct ReactionKernel {
 ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOptions& o, double z_low, double period) {
     // kept between steps for their memory; contact is not re-entrant
     static ChosenPoints active_points, touching_nodes;
-    static Sorted<17> wall_columns;
-    static Sorted<11> node_columns;
+    static SortedColumns<17> wall_columns;
+    static SortedColumns<11> node_columns;
     static Array<Touch> touches;
 
     const SurfaceView wall = view(surface);
@@ -313,7 +340,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
 
     make_room(touches, static_cast<std::size_t>(nodes.n));
     Touch* const touch = touches.data();
-    exec::launch(nodes.n, WallKernel{nodes, active_points.view(), w, extent, surface.density, o, touch});
+    exec::launch(nodes.groups.size, WallKernel{nodes, active_points.view(), w, extent, surface.density, o, touch}, few_groups);
 
     std::int32_t* const touching = touching_nodes.list(nodes.n);
     ContactReport report;
@@ -332,7 +359,8 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
     const CellGridView points = touching_nodes.view().grid;
     const SortedView<11> p = node_columns.room(points.entries);
     exec::launch(points.entries + width, NodeRows{nodes, touching, touch, points, p}, 1024);
-    exec::launch(count, ReactionKernel{wall, active, touching_nodes.view(), p, reach, nodes.normal[0] != nullptr});
+    const NodeGroupsView groups{surface.group.data(), nullptr, static_cast<std::int64_t>(nodes.kappa ? surface.group.size() - 1 : surface.side_groups)};
+    exec::launch(groups.size, ReactionKernel{wall, groups, touching_nodes.view(), p, reach, nodes.normal[0] != nullptr}, few_groups);
     return report;
 }
 
@@ -341,13 +369,13 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
     const FluidView b = view(a);
     const Nodes n{{b.x[0], b.x[1], b.x[2]}, {b.v_now[0], b.v_now[1], b.v_now[2]}, b.mass, fa.modulus.data(), b.rho_now, fa.spacing.data(), nullptr, nullptr, {},
-                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, b.n, 0.5 * fa.largest_spacing};
+                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, fa.groups.view(), b.n, 0.5 * fa.largest_spacing};
     return against_wall(n, s, o, z_low, period);
 }
 
 ContactReport surface_contact(Surface& nodes, Surface& wall, const ContactOptions& o, double z_low, double period) {
     const SurfaceView s = view(nodes);
-    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, s.sides, 0};
+    const Nodes n{{s.x, s.y, s.z}, {s.v[0], s.v[1], s.v[2]}, s.mass, s.modulus, nullptr, nullptr, s.area, s.spacing, {s.n[0], s.n[1], s.n[2]}, {s.f[0], s.f[1], s.f[2]}, {nodes.group.data(), nullptr, static_cast<std::int64_t>(nodes.side_groups)}, s.sides, 0};
     return against_wall(n, wall, o, z_low, period);
 }
 

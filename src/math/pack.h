@@ -193,6 +193,15 @@ template <class Mask> BRISANCE_INLINE unsigned lane_bits(Mask on) {
 /// Whether it holds in any lane.
 template <class Mask> BRISANCE_INLINE bool any_lane(Mask on) { return lane_bits(on) != 0; }
 
+/// f(l) for each bit l that is set.
+template <class F> BRISANCE_INLINE void each_lane(unsigned bits, F&& f) {
+#ifdef BRISANCE_CUDA
+    if (bits != 0) f(0);  // a pack is one number
+#else
+    for (; bits != 0; bits &= bits - 1) f(__builtin_ctz(bits));
+#endif
+}
+
 /// Records of eight numbers, one cache line each: out[c] gets component c of the records at first[l], one per lane.
 template <class V> BRISANCE_INLINE void load_records(const ScalarOf<V>* records, const std::int32_t* first, V out[8]) {
     constexpr int n = lanes_of<V>;

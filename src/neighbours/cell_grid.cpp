@@ -101,6 +101,7 @@ void CellGrid::sort_all(const UnsortedPoints& raw) {
         shift[k] = raw.shifted(order[k]);
     }, 1024);
     g.begin = begin_.data();
+    g.beginnings = g.cells() + 1;
 }
 
 }  // namespace brisance

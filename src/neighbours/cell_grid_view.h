@@ -19,7 +19,8 @@ struct CellGridView {
     double cell = 1, min[3] = {0, 0, 0};
     int n[3] = {1, 1, 1};
     std::int64_t entries = 0;
-    const std::int64_t* begin = nullptr;  ///< of the first entry of every cell and, behind the last, of the end
+    const std::int64_t* begin = nullptr;  ///< the first entry of every cell and, behind the last, the end; of a sparse grid behind the last of every row
+    std::int64_t beginnings = 0;          ///< how many these are
     // of a sparse grid
     const CellRow* rows = nullptr;        ///< of each block in turn, y fastest; null: the grid is full
     const std::int32_t* block = nullptr;  ///< the number of each block, z fastest; 0: it is empty
@@ -70,8 +71,14 @@ struct CellGridView {
     /// in a fixed order.
     template <class F>
     BRISANCE_HD void ranges(double x, double y, double z, double reach, F&& f) const {
+        const double low[3] = {x - reach, y - reach, z - reach}, high[3] = {x + reach, y + reach, z + reach};
+        ranges(low, high, f);
+    }
+    /// The same for all entries in a box.
+    template <class F>
+    BRISANCE_HD void ranges(const double (&box_low)[3], const double (&box_high)[3], F&& f) const {
         if (entries == 0) return;
-        const int i0 = place(x - reach, 0), i1 = place(x + reach, 0), j0 = place(y - reach, 1), j1 = place(y + reach, 1), k0 = place(z - reach, 2), k1 = place(z + reach, 2);
+        const int i0 = place(box_low[0], 0), i1 = place(box_high[0], 0), j0 = place(box_low[1], 1), j1 = place(box_high[1], 1), k0 = place(box_low[2], 2), k1 = place(box_high[2], 2);
         // in a full grid: from a row to the next along y, within a strip and into the next one, and along z
         const std::int64_t along_z = static_cast<std::int64_t>(strip) * n[0], step = n[0], leap = n[2] * along_z - (strip - 1) * step;
         const std::int64_t* low = begin + row(j0, k0) + i0;

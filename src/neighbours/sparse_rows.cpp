@@ -127,6 +127,7 @@ bool SparseRows::build(CellGridView& g, const UnsortedPoints& points, double mos
     exec::launch(rows, SortKernel{by, cells_before_.data(), points, rows_.data(), begin_.data(), index, shift});
     g.rows = rows_.data();
     g.begin = begin_.data();
+    g.beginnings = cells;
     return true;
 }
 

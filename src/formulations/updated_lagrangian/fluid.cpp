@@ -288,8 +288,9 @@ struct RatesKernel {
 FluidWork FluidSolver::sort(const FluidBody& b) {
     const FluidView body = view(b);
     const double h_max = exec::launch_max(body.n, 0.0, Value{body.h});
-    // Cells of half the usual support: few candidates per particle, and not many cells to look into.
-    const double h_mean = exec::launch_sum(body.n, Value{body.h}) / static_cast<double>(std::max<std::int64_t>(body.n, 1)), cell = h_max < 1.25 * h_mean ? h_max : h_mean;
+    // Cells of half the usual support: few candidates per particle. Where a pack takes sixteen, cells of all of it: rows of them fill the packs.
+    const double h_mean = exec::launch_sum(body.n, Value{body.h}) / static_cast<double>(std::max<std::int64_t>(body.n, 1));
+    const double cell = (lanes<float> < 16 ? 1 : 2) * (h_max < 1.25 * h_mean ? h_max : h_mean);
     points_.build(b, 2 * h_max);
     grid_.build(points_.place(0), points_.place(1), points_.place(2), points_.size(), std::max(cell, 1e-9), 2 * h_max, b.z_low, b.period);
     const auto padded = static_cast<std::size_t>(grid_.entries() + lanes<float>), n = static_cast<std::size_t>(body.n);
