@@ -28,6 +28,17 @@ struct CellKernel {
     }
 };
 
+struct OrderKernel {
+    UnsortedPoints raw;
+    const std::int32_t* order;
+    std::int32_t* index;
+    double* shift;
+    BRISANCE_HD void operator()(std::int64_t k) const {
+        index[k] = raw.point(order[k]);
+        shift[k] = raw.shifted(order[k]);
+    }
+};
+
 }  // namespace
 
 void CellGrid::build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period) {
@@ -93,13 +104,7 @@ void CellGrid::sort_all(const UnsortedPoints& raw) {
     make_room(cell_of_, static_cast<std::size_t>(g.entries));
     exec::launch(g.entries, CellKernel{raw, g, cell_of_.data()}, 1024);
     exec::bucket_sort(cell_of_.data(), g.entries, g.cells(), order_.data(), begin_.data());
-    const std::int32_t* const order = order_.data();
-    std::int32_t* const index = index_.data();
-    double* const shift = shift_.data();
-    exec::launch(g.entries, BRISANCE_KERNEL(std::int64_t k) {
-        index[k] = raw.point(order[k]);
-        shift[k] = raw.shifted(order[k]);
-    }, 1024);
+    exec::launch(g.entries, OrderKernel{raw, order_.data(), index_.data(), shift_.data()}, 1024);
     g.begin = begin_.data();
     g.beginnings = g.cells() + 1;
 }
