@@ -124,7 +124,7 @@ def stretch():
             f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, which measures the machine for a moment, foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
             f"In the same proportion the 150 µs, which `check` puts at {f['whole_foretold'] / 3600:.1f} h, take {f['whole'] / 3600:.1f}. The fluids decide: a million particles; for the 22 µs of the burn "
             "the charge holds the step, then the thin sheath.",
-            "That is a lower bound: later, gas that has expanded widens the search for contact. In the preset full-coarse contact takes half of the first 15 µs (`--preset full-coarse --until \"15 us\"`)."]
+            "That is a lower bound: gas that has vented makes contact dearer. The preset full-coarse takes 22 min for its 150 µs, 2.8 of them for the first 15; contact takes 43 % of these and half of the rest (`brisance run cases/blast/air_copper.toml --preset full-coarse`)."]
 
 
 def page():
@@ -144,11 +144,12 @@ def page():
         "  neighbour's column begins anywhere in a line. Two loads a cycle, or one that straddles: that is where the time goes, not the multiply-adds. Single precision takes twice the particles in a load.",
         "* **Water** searches its neighbours anew each step: 26 % of its instructions, the two passes over the neighbours 27 and 39 % (`build/portable/loops fluid` under callgrind, as `tools/instructions.py` runs it); a record of",
         "  eight numbers is gathered for each neighbour in both passes and turned in registers.",
-        "  Cells are walked in strips, so that what a strip's neighbours need stays in the second cache.",
+        "  Cells are walked in strips, so that what a strip's neighbours need stays in the second cache; with AVX-512 they are as wide as a support, since shorter rows leave packs of sixteen half empty.",
         "* **The second thread** shares with the first whatever the machine lets two threads share: compare the arithmetic of one thread with that of both before blaming the loop:",
         f"  here {rows['arithmetic'][0]['rate'] / 1e9:.0f} and {top['arithmetic'] / 1e9:.0f} GFLOP/s.",
         "* **Laws**: JH-2 is 9 % of the instructions of a loop of rock that fails (`build/portable/loops rock`). **Contact** looks only at pairs of parts that can have met since it looked last, sorts fluids by size, and asks",
-        "  a map of rings of cells first where many particles look at few cells.",
+        "  a map of rings of cells first where many particles look at few cells. What stands together, the particles of a cell three spacings wide, looks for its partners as one; the few that are near are read close together.",
+        "* **Gas flung far out** does not widen the cells of the rest: where a grid would have sixteen cells per point it is sparse (`src/neighbours/sparse_rows.h`).",
         "* **Slices**: a pack holds particles of one column, 8 in double and 16 in single (half of that without AVX-512). Eight layers fill it; a ninth costs as much as eight, and single precision gains nothing in eight.", "",
         "## Everything else", "", *rest(rows), "",
         "## Goals", "", *goals(rows), "",
