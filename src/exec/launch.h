@@ -26,6 +26,15 @@ inline constexpr std::int64_t chunk = 256;
 /// Fewer items than this are selected and sorted by one thread.
 inline constexpr std::int64_t worth_sharing = 8192;
 
+/// Sets a flag to 1 in a kernel of which other items may set it too.
+BRISANCE_HD inline void mark(std::int64_t& flag) {
+#ifdef __CUDA_ARCH__
+    flag = 1;
+#else
+    __atomic_store_n(&flag, 1, __ATOMIC_RELAXED);
+#endif
+}
+
 #if !defined(BRISANCE_CUDA) || defined(__CUDACC__)
 
 namespace detail {

@@ -7,14 +7,6 @@ namespace brisance {
 
 namespace {
 
-BRISANCE_HD inline void mark(std::int64_t& place) {
-#ifdef __CUDA_ARCH__
-    place = 1;
-#else
-    __atomic_store_n(&place, 1, __ATOMIC_RELAXED);  // others may mark it too
-#endif
-}
-
 /// Marks the blocks that hold entries.
 struct MarkKernel {
     UnsortedPoints points;
@@ -22,7 +14,7 @@ struct MarkKernel {
     std::int64_t* held;
     BRISANCE_HD void operator()(std::int64_t k) const {
         const std::int32_t i = points.point(k);
-        mark(held[grid.block_at(grid.place(points.y[i], 1), grid.place(points.z[i] + points.shifted(k), 2))]);
+        exec::mark(held[grid.block_at(grid.place(points.y[i], 1), grid.place(points.z[i] + points.shifted(k), 2))]);
     }
 };
 
