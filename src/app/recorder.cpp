@@ -6,7 +6,6 @@
 #include "app/leaks.h"
 #include "base/error.h"
 #include "math/eigen.h"
-#include "math/kernel.h"
 
 #include <fmt/format.h>
 

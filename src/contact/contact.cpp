@@ -28,7 +28,13 @@ void FluidForces::begin(const FluidBody& body) {
         m[i] = std::max(b.rho_now[i] * b.sound[i] * b.sound[i] * crushed * crushed * crushed, 1e-9);
         return s[i];
     });
-    groups.build(b.x[0], b.x[1], b.x[2], b.n, 3 * body.spacing);
+    grouped = false;
+}
+
+NodeGroupsView FluidForces::group(const FluidBody& body) {
+    if (!grouped) groups.build(body.x[0].data(), body.x[1].data(), body.x[2].data(), body.size(), 3 * body.spacing);
+    grouped = true;
+    return groups.view();
 }
 
 double clearance(const Places& a, const Places& b, double range, double horizon, double z_low, double period) {
@@ -39,7 +45,7 @@ double clearance(const Places& a, const Places& b, double range, double horizon,
     std::int32_t* const list = beside.list(b.n);
     const std::int64_t count = exec::select(b.n, BRISANCE_KERNEL(std::int64_t i) { return box.beside(b.x[i], b.y[i], reach); },
                                             BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { list[k] = static_cast<std::int32_t>(i); });
-    beside.build(b.x, b.y, b.z, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth);
+    beside.build(b.x, b.y, b.z, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth, true);
     const RingMapView rings = beside.view();
     const double nearest = -exec::launch_max(a.n, -reach, BRISANCE_KERNEL(std::int64_t i) { return -rings.bound(a.x[i], a.y[i], a.z[i]); });
     return std::max(0.0, nearest - range);

@@ -98,11 +98,14 @@ struct FluidForces {
     Array<double> fx, fy, fz;          ///< mN
     Array<double> spacing, modulus;    ///< current spacing kappa, mm (no wider than its support may grow), and rho c^2, GPa, of each particle
     Array<double> press, near;         ///< sums over the fluid that touches a particle: overlap x pressure, and overlap, mm
-    NodeGroups groups;                 ///< particles that stand together, some dozen
+    NodeGroups groups;                 ///< particles that stand together, some dozen; as `group` has them
+    bool grouped = false;              ///< since `begin`
     double largest_spacing = 0;
     double heat = 0;                   ///< of what the pressure around does to particles without their own kind (FluidSolver::equalise), W = J/us
     /// No forces, and the spacing and stiffness of the present state.
     void begin(const FluidBody& body);
+    /// The groups of the present state: made by the first pair that asks.
+    NodeGroupsView group(const FluidBody& body);
 };
 
 /// Where the points of a part are.

@@ -49,7 +49,7 @@ struct Sorted {
 
 Side side(const FluidBody& b, FluidForces& f, Sorted& sorted, double largest, std::int64_t looks) {
     sorted.points.build(b, largest);
-    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, f.press.data(), f.near.data(), sorted.points.view(), f.groups.view(), {}};
+    Side s{view(b), f.spacing.data(), f.modulus.data(), {f.fx.data(), f.fy.data(), f.fz.data()}, f.press.data(), f.near.data(), sorted.points.view(), f.group(b), {}};
     const MirroredView points = s.points;
     const double* const spacing = s.spacing;
     const std::int64_t n = sorted.points.size();

@@ -369,7 +369,7 @@ ContactReport against_wall(const Nodes& nodes, Surface& surface, const ContactOp
 ContactReport wall_contact(const FluidBody& a, Surface& s, const ContactOptions& o, double z_low, double period, FluidForces& fa) {
     const FluidView b = view(a);
     const Nodes n{{b.x[0], b.x[1], b.x[2]}, {b.v_now[0], b.v_now[1], b.v_now[2]}, b.mass, fa.modulus.data(), b.rho_now, fa.spacing.data(), nullptr, nullptr, {},
-                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, fa.groups.view(), b.n, 0.5 * fa.largest_spacing};
+                  {fa.fx.data(), fa.fy.data(), fa.fz.data()}, fa.group(a), b.n, 0.5 * fa.largest_spacing};
     return against_wall(n, s, o, z_low, period);
 }
 

@@ -12,8 +12,8 @@ namespace {
 struct BoxKernel {
     UnsortedPoints raw;
     BRISANCE_HD PointBox operator()(std::int64_t k) const {
-        const std::int32_t i = raw.point(k);
-        return box_of(raw.x[i], raw.y[i], raw.z[i] + raw.shifted(k));
+        const Vec3<double> p = raw.place(k);
+        return box_of(p.x, p.y, p.z);
     }
 };
 
@@ -22,9 +22,8 @@ struct CellKernel {
     CellGridView grid;
     std::int32_t* cell_of;
     BRISANCE_HD void operator()(std::int64_t k) const {
-        const std::int32_t i = raw.point(k);
-        const int cx = grid.place(raw.x[i], 0), cy = grid.place(raw.y[i], 1), cz = grid.place(raw.z[i] + raw.shifted(k), 2);
-        cell_of[k] = static_cast<std::int32_t>(grid.row(cy, cz) + cx);
+        const UnsortedPoints::Cell c = raw.cell(grid, k);
+        cell_of[k] = static_cast<std::int32_t>(grid.row(c.y, c.z) + c.x);
     }
 };
 
@@ -41,7 +40,7 @@ struct OrderKernel {
 
 }  // namespace
 
-void CellGrid::build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period) {
+void CellGrid::build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low, double period, bool full) {
     UnsortedPoints raw{x, y, z, nullptr, nullptr};
     std::int64_t entries = n;
     if (period > 0) {
@@ -94,7 +93,7 @@ void CellGrid::build(const double* x, const double* y, const double* z, std::int
             count *= g.n[a];
         }
         if (count <= most) return sort_all(raw);
-        if (sparse_.build(g, raw, most, order_.data(), index_.data(), shift_.data())) return;
+        if (!full && sparse_.build(g, raw, most, order_.data(), index_.data(), shift_.data())) return;
     }
 }
 

@@ -12,8 +12,8 @@ namespace brisance {
 class CellGrid {
 public:
     /// Sorts n points. `cell` is the edge of a cell, mm. Where `period` > 0 the points are periodic in z from z_low on, and images
-    /// within `reach` of the period's ends are added.
-    void build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low = 0, double period = 0);
+    /// within `reach` of the period's ends are added. `full`: cells grow rather than that the grid is sparse.
+    void build(const double* x, const double* y, const double* z, std::int64_t n, double cell, double reach, double z_low = 0, double period = 0, bool full = false);
 
     std::int64_t entries() const { return view_.entries; }
     const CellGridView& view() const { return view_; }

@@ -2,7 +2,7 @@
 // A grid of cells as kernels take it: full, every cell with its place, or sparse (neighbours/sparse_rows.h).
 #pragma once
 
-#include "base/hd.h"
+#include "math/vec.h"
 
 #include <cstdint>
 
@@ -31,7 +31,7 @@ struct CellGridView {
     static constexpr int rows_of_a_block = strip * strip;  ///< along y and z
     bool sparse() const { return rows != nullptr; }
     /// Places for cells, the strip that is not full included.
-    std::int64_t cells() const { return static_cast<std::int64_t>((n[1] + strip - 1) / strip) * strip * n[0] * n[2]; }
+    std::int64_t cells() const { return blocks(1) * strip * n[0] * n[2]; }
     /// The first cell of a row.
     BRISANCE_HD std::int64_t row(int j, int k) const { return ((static_cast<std::int64_t>(j / strip) * n[2] + k) * strip + j % strip) * n[0]; }
     /// Blocks of a sparse grid along an axis.
@@ -108,6 +108,18 @@ struct UnsortedPoints {
     const double* shift;
     BRISANCE_HD std::int32_t point(std::int64_t k) const { return index ? index[k] : static_cast<std::int32_t>(k); }
     BRISANCE_HD double shifted(std::int64_t k) const { return shift ? shift[k] : 0.0; }
+    /// Where entry k is, and its cell in a grid.
+    BRISANCE_HD Vec3<double> place(std::int64_t k) const {
+        const std::int32_t i = point(k);
+        return {x[i], y[i], z[i] + shifted(k)};
+    }
+    struct Cell {
+        int x, y, z;
+    };
+    BRISANCE_HD Cell cell(const CellGridView& grid, std::int64_t k) const {
+        const Vec3<double> p = place(k);
+        return {grid.place(p.x, 0), grid.place(p.y, 1), grid.place(p.z, 2)};
+    }
 };
 
 }  // namespace brisance

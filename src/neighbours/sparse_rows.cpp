@@ -13,8 +13,8 @@ struct MarkKernel {
     CellGridView grid;
     std::int64_t* held;
     BRISANCE_HD void operator()(std::int64_t k) const {
-        const std::int32_t i = points.point(k);
-        exec::mark(held[grid.block_at(grid.place(points.y[i], 1), grid.place(points.z[i] + points.shifted(k), 2))]);
+        const UnsortedPoints::Cell c = points.cell(grid, k);
+        exec::mark(held[grid.block_at(c.y, c.z)]);
     }
 };
 
@@ -24,10 +24,9 @@ struct PlaceKernel {
     CellGridView grid;
     std::int32_t *row_of, *column_of;
     BRISANCE_HD void operator()(std::int64_t k) const {
-        const std::int32_t i = points.point(k);
-        const int cy = grid.place(points.y[i], 1), cz = grid.place(points.z[i] + points.shifted(k), 2);
-        row_of[k] = grid.block[grid.block_at(cy, cz)] * CellGridView::rows_of_a_block + CellGridView::row_in_block(cy, cz);
-        column_of[k] = grid.place(points.x[i], 0);
+        const UnsortedPoints::Cell c = points.cell(grid, k);
+        row_of[k] = grid.block[grid.block_at(c.y, c.z)] * CellGridView::rows_of_a_block + CellGridView::row_in_block(c.y, c.z);
+        column_of[k] = c.x;
     }
 };
 

@@ -356,6 +356,21 @@ TEST(Contact, ClearanceIsABound) {
 }
 
 // A piston of gas, fine against a coarse copper plate, hard driven: nothing may come through, and the balance closes.
+TEST(Contact, ClearanceKnowsALongCoarseWall) {
+    // a tube of points much farther apart than the cells that tell the distance
+    std::array<std::vector<double>, 3> wall;
+    for (int i = 0; i < 24; ++i)
+        for (int k = 0; k < 90; ++k) {
+            wall[0].push_back(3.2 * std::cos(i * 0.2618));
+            wall[1].push_back(3.2 * std::sin(i * 0.2618));
+            wall[2].push_back(1.6 * k);
+        }
+    const std::vector<double> x{1.5, -1.5, 0, 0}, y{0, 0, 1.5, -1.5}, z{20, 40, 60, 80};
+    const double found = clearance({x.data(), y.data(), z.data(), 4}, {wall[0].data(), wall[1].data(), wall[2].data(), 2160}, 0.6, 0.5, 0, 0);
+    EXPECT_GT(found, 0.1);
+    EXPECT_LE(found, 0.5 + 1e-12);
+}
+
 TEST(Contact, AFluidPistonDoesNotLeakThroughACopperWall) {
     for (const double speed : {0.5, 3.0}) {
         World<double> w;
