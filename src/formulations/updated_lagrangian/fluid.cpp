@@ -241,7 +241,7 @@ struct RatesKernel {
         const std::int64_t i = w.particle(k);
         const double *me = w.motion + 8 * k, *mine = w.response + 8 * k;
         const double rho = mine[0], c = mine[1], r_i = tension ? w.resistance[k] : 0.0;
-        V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{};
+        V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{}, mu_felt{};
         w.neighbours.packs(k, [&](const std::int32_t* list) {
             const Pairs<V> p = pairs<V>(me, w.motion, list);
             V other[8];  // rho, c, (P + q) L
@@ -273,12 +273,13 @@ struct RatesKernel {
             heat -= 0.5 * bracket * wv;
             viscous -= 0.5 * pi * wv;
             mu_largest = vmax(mu_largest, -mu);
+            mu_felt -= mj * weight * (mu * (inverse * apart));
         });
         double s[6];
         hsums({ax, ay, az, heat, viscous, artificial}, s);
         for (int a = 0; a < 3; ++a) b.acceleration[a][i] = s[a] / rho;
         b.e_rate[i] = (b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + s[3];
-        w.mu[i] = hmax(mu_largest);
+        w.mu[i] = std::min(hmax(mu_largest), 2.4 * me[3] * me[3] * hsum(mu_felt));
         return {b.mass[i] * (s[4] + w.q[i] / rho * b.rho_rate[i]), b.mass[i] * s[5]};
     }
 };
