@@ -40,6 +40,20 @@ private:
     std::array<Array<double>, n> columns_;
 };
 
+/// The square of how far a point is from a box.
+template <class V>
+BRISANCE_HD inline V apart2(const PointBox& box, V x, V y, V z) {
+    const auto beyond = [&](V p, int a) { return vmax(vmax(box.min[a] - p, p - box.max[a]), V{}); };
+    const V dx = beyond(x, 0), dy = beyond(y, 1), dz = beyond(z, 2);
+    return dx * dx + dy * dy + dz * dz;
+}
+/// f(first, last) for the ranges of a grid that are within `reach` of a box.
+template <class F>
+BRISANCE_HD inline void ranges(const CellGridView& grid, const PointBox& box, double reach, F&& f) {
+    const double low[3] = {box.min[0] - reach, box.min[1] - reach, box.min[2] - reach}, high[3] = {box.max[0] + reach, box.max[1] + reach, box.max[2] + reach};
+    grid.ranges(low, high, f);
+}
+
 /// Those of the points that are near a group of nodes, close together. In a build for a device a thread has no room for them: then there are never all.
 template <int n>
 struct Gathered {
@@ -62,6 +76,14 @@ struct Gathered {
             take(row);
         });
     }
+    /// Those within `reach` of a box: `from` in the order of the grid, place first.
+    BRISANCE_HD void take_near(const PointBox& box, double reach, const CellGridView& grid, const SortedView<n>& from) {
+        using V = Pack<double>;
+        ranges(grid, box, reach, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last && all; k += lanes<double>)
+                take(from, k, lane_bits((apart2(box, from(0, k), from(1, k), from(2, k)) < reach * reach) & lanes_before<V>(k, last)));
+        });
+    }
     BRISANCE_HD SortedView<n> view() {
         SortedView<n> v;
         for (int c = 0; c < n; ++c) {
@@ -71,23 +93,5 @@ struct Gathered {
         return v;
     }
 };
-
-/// The square of how far a point is from a box.
-template <class V>
-BRISANCE_HD inline V apart2(const PointBox& box, V x, V y, V z) {
-    const auto beyond = [&](V p, int a) { return vmax(vmax(box.min[a] - p, p - box.max[a]), V{}); };
-    const V dx = beyond(x, 0), dy = beyond(y, 1), dz = beyond(z, 2);
-    return dx * dx + dy * dy + dz * dz;
-}
-BRISANCE_HD inline double half_diagonal(const PointBox& box) {
-    const double x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
-    return 0.5 * std::sqrt(x * x + y * y + z * z);
-}
-/// f(first, last) for the ranges of a grid that are within `reach` of a box.
-template <class F>
-BRISANCE_HD inline void ranges(const CellGridView& grid, const PointBox& box, double reach, F&& f) {
-    const double low[3] = {box.min[0] - reach, box.min[1] - reach, box.min[2] - reach}, high[3] = {box.max[0] + reach, box.max[1] + reach, box.max[2] + reach};
-    grid.ranges(low, high, f);
-}
 
 }  // namespace brisance

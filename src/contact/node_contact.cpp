@@ -89,7 +89,7 @@ struct NodeKernel {
         bool any = false;
         for (const Layer& layer : other.layer) {
             const double reach = 0.5 * (widest + layer.widest);
-            if (layer.map.grid.entries == 0 || layer.map.bound(middle(box, 0), middle(box, 1), middle(box, 2)) >= reach + half_diagonal(box)) continue;
+            if (layer.map.grid.entries == 0 || layer.map.bound(box.middle()) >= reach + norm(box.half())) continue;
             ranges(layer.map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
                 any = true;
                 for (std::int64_t k = first; k < last && near.all; ++k) {
@@ -115,7 +115,6 @@ private:
     struct Felt {
         double f[3] = {0, 0, 0}, press = 0, near = 0;
     };
-    BRISANCE_HD static double middle(const PointBox& box, int axis) { return 0.5 * (box.min[axis] + box.max[axis]); }
     BRISANCE_HD void touch_gathered(std::int64_t i, const SortedView<6>& near, int count, Felt& felt, Touched& local) const {
         using V = Pack<double>;
         const double x = me.body.x[0][i], y = me.body.x[1][i], z = me.body.x[2][i], kappa = me.spacing[i];

@@ -106,11 +106,7 @@ struct WallKernel {
         });
         if (!close(box, radius)) return;
         Gathered<17> near;
-        const double reach = extent.reach(radius);
-        ranges(map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t q = first; q < last && near.all; q += width)
-                near.take(w, q, lane_bits((apart2(box, w(0, q), w(1, q), w(2, q)) < reach * reach) & lanes_before<V>(q, last)));
-        });
+        near.take_near(box, extent.reach(radius), map.grid, w);
         const SortedView<17> v = near.view();
         nodes.groups.each(g, [&](std::int64_t i) {
             if (near.all) feel(i, [&](double, auto&& f) { f(v, 0, near.count); });
@@ -124,8 +120,8 @@ private:
     /// Most nodes are far from the wall: is any point of it near the box of some, with none of them well in front?
     BRISANCE_HD bool close(const PointBox& box, double radius) const {
         const double near = extent.near(radius);
-        const Vec3<double> middle{0.5 * (box.min[0] + box.max[0]), 0.5 * (box.min[1] + box.max[1]), 0.5 * (box.min[2] + box.max[2])}, half{box.max[0] - middle.x, box.max[1] - middle.y, box.max[2] - middle.z};
-        if (map.bound(middle.x, middle.y, middle.z) >= near + norm(half)) return false;
+        const Vec3<double> middle = box.middle(), half = box.half();
+        if (map.bound(middle) >= near + norm(half)) return false;
         bool any = false;
         ranges(map.grid, box, near, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t q = first; q < last && !any; q += width) {
@@ -276,12 +272,9 @@ struct ReactionKernel {
     BRISANCE_HD void operator()(std::int64_t g) const {
         PointBox box;
         groups.each(g, [&](std::int64_t j) { box += box_of(wall.x[j], wall.y[j], wall.z[j]); });
-        if (map.bound(0.5 * (box.min[0] + box.max[0]), 0.5 * (box.min[1] + box.max[1]), 0.5 * (box.min[2] + box.max[2])) >= reach + half_diagonal(box)) return;
+        if (map.bound(box.middle()) >= reach + norm(box.half())) return;
         Gathered<11> near;
-        ranges(map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t q = first; q < last && near.all; q += width)
-                near.take(p, q, lane_bits((apart2(box, p(0, q), p(1, q), p(2, q)) < reach * reach) & lanes_before<V>(q, last)));
-        });
+        near.take_near(box, reach, map.grid, p);
         if (near.all && near.count == 0) return;
         const SortedView<11> v = near.view();
         groups.each(g, [&](std::int64_t j) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "exec/launch.h"
+#include "math/vec.h"
 
 namespace brisance {
 
@@ -19,6 +20,9 @@ struct PointBox {
     BRISANCE_HD bool beside(double x, double y, double margin) const {
         return x > min[0] - margin && x < max[0] + margin && y > min[1] - margin && y < max[1] + margin;
     }
+    BRISANCE_HD Vec3<double> middle() const { return {0.5 * (min[0] + max[0]), 0.5 * (min[1] + max[1]), 0.5 * (min[2] + max[2])}; }
+    /// From the middle to the corner where all are largest.
+    BRISANCE_HD Vec3<double> half() const { return {0.5 * (max[0] - min[0]), 0.5 * (max[1] - min[1]), 0.5 * (max[2] - min[2])}; }
 };
 BRISANCE_HD inline PointBox box_of(double x, double y, double z) { return {{x, y, z}, {x, y, z}}; }
 inline PointBox box_of(const double* x, const double* y, const double* z, std::int64_t n) {

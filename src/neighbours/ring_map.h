@@ -2,6 +2,7 @@
 // How far every cell of a grid is from the next one that holds points: one look tells most particles that nothing is near them.
 #pragma once
 
+#include "math/vec.h"
 #include "neighbours/cell_grid.h"
 
 namespace brisance {
@@ -18,6 +19,7 @@ struct RingMapView {
         const int ring = rings[grid.row(grid.place(y, 1), grid.place(z, 2)) + grid.place(x, 0)];
         return ring > 1 ? (ring - 1) * grid.cell : 0.0;
     }
+    BRISANCE_HD double bound(const Vec3<double>& p) const { return bound(p.x, p.y, p.z); }
 };
 
 class RingMap {
