@@ -44,8 +44,8 @@ struct Row {
     std::function<Measured(const BenchOptions&)> measure;
 };
 
-Measured loop(const std::string& file, const BenchOptions& b, Precision precision, double edge) {
-    const LoopSpeed l = loop_speed(file, b.particles, precision, edge, 3);
+Measured loop(const std::string& file, const BenchOptions& b, Precision precision, double edge, const std::string& preset = "") {
+    const LoopSpeed l = loop_speed(file, b.particles, precision, edge, 3, preset);
     return {l.rate, l.particles, l.neighbours, l.bytes};
 }
 
@@ -115,6 +115,7 @@ const std::vector<Row>& rows() {
         {"copper", "particle-steps/s, Johnson-Cook, double", 80, [](const BenchOptions& b) { return loop("bench/copper.toml", b, Precision::double_, 8); }},
         // twice distance, kernel and its gradient: 52; M and grad v: 34; pressure, viscosity, heat: 64
         {"water", "particle-steps/s, neighbour search included, double", 150, [](const BenchOptions& b) { return loop("bench/water.toml", b, Precision::double_, 12); }},
+        {"water_short", "the same with a smoothing length of 1.2 spacings", 150, [](const BenchOptions& b) { return loop("bench/water.toml", b, Precision::double_, 12, "short"); }},
         {"blast", "particle-steps/s, quick case to 12 us; share: contact's of the time", 0, blast},
         {"law_jh2", "updates/s, a third each elastic, yielding, failed", 0, [](const BenchOptions&) { return law("barre_granite"); }},
         {"law_johnson_cook", "updates/s, a third each elastic, yielding, failed", 0, [](const BenchOptions&) { return law("copper_ofhc"); }},

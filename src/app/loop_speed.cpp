@@ -62,8 +62,10 @@ LoopSpeed speed(const Case& c, double seconds) {
 
 }  // namespace
 
-LoopSpeed loop_speed(const std::string& file, double particles, Precision precision, double edge, double seconds) {
-    const Case c = open_case(sized_case(file, particles, edge));
+LoopSpeed loop_speed(const std::string& file, double particles, Precision precision, double edge, double seconds, const std::string& preset) {
+    CaseOptions o = sized_case(file, particles, edge);
+    o.preset = preset;
+    const Case c = open_case(o);
     require_memory(c, estimate(c));
     return precision == Precision::single ? speed<float>(c, seconds) : speed<double>(c, seconds);
 }

@@ -22,7 +22,7 @@ struct LoopSpeed {
     double particles = 0, neighbours = 0;
     double bytes = 0;       ///< per particle, resident
 };
-/// Steps such a case for about so many seconds, after some steps to warm up.
-LoopSpeed loop_speed(const std::string& file, double particles, Precision precision, double edge, double seconds);
+/// Steps such a case, with a preset or without, for about so many seconds, after some steps to warm up.
+LoopSpeed loop_speed(const std::string& file, double particles, Precision precision, double edge, double seconds, const std::string& preset = "");
 
 }  // namespace brisance
