@@ -116,12 +116,13 @@ def full():
     run, check, stretch, log = read("full_run.json"), read("full_check.json"), read("full_stretch_check.json"), (FOLDER / "full_log.txt").read_text(encoding="utf-8")
     end = float(re.search(r"until ([0-9.]+) us", log)[1])
     late = read("slice_run.json")
+    late_end = float(re.search(r"run\.until=([0-9.]+) us", " ".join(late["settings"]))[1])
     measured, foretold = run["wall_seconds"], stretch["seconds"]
     proportion = check["seconds"] * measured / foretold
-    as_slices = late["wall_seconds"] * 150 / 40 * run["particles"]["sheath"] / late["particles"]["sheath"]
+    as_slices = late["wall_seconds"] * 150 / late_end * run["particles"]["sheath"] / late["particles"]["sheath"]
     seconds = {part: run["particles"][part] * run["steps"] / rate for part, rate in run["rates"].items() if part != "all"}
     return {"particles": sum(run["particles"].values()), "setup": float(re.search(r"set up in ([0-9.]+) s", log)[1]), "end": end, "steps": run["steps"], "measured": measured, "short": stretch["steps"], "commit": run["commit"],
-            "foretold": foretold, "proportion": proportion, "slice": late["wall_seconds"], "as_slices": as_slices, "whole": max(proportion, as_slices), "whole_foretold": check["seconds"], "threads": run["machine"]["threads"],
+            "foretold": foretold, "proportion": proportion, "slice": late["wall_seconds"], "slice_end": late_end, "as_slices": as_slices, "whole": max(proportion, as_slices), "whole_foretold": check["seconds"], "threads": run["machine"]["threads"],
             "shares": ", ".join(f"{part} {100 * s / measured:.0f} %" for part, s in seconds.items())}
 
 
@@ -131,7 +132,7 @@ def stretch():
             f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, which measures the machine for a moment, foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
             f"In the same proportion the 150 µs, which `check` puts at {f['whole_foretold'] / 3600:.1f} h, take {f['proportion'] / 3600:.1f}. The fluids decide: a million particles; for the 22 µs of the burn "
             "the charge holds the step, then the air and the sheath.",
-            f"A slice of 12 layers with the same spacings, lit at once, takes {f['slice']:.0f} s for 40 µs (the command is in `tools/performance_page.py`). As often as the body is longer, and on to 150 µs, that is {f['as_slices'] / 3600:.1f} h. The goal is held against the longer of the two.",
+            f"A slice of 12 layers with the same spacings, lit at once, takes {f['slice']:.0f} s for {f['slice_end']:g} µs (the command is in `tools/performance_page.py`). As often as the body is longer, and on to 150 µs, that is {f['as_slices'] / 3600:.1f} h. The goal is held against the longer of the two.",
             f"Neither knows the gas that has vented. The preset full-coarse, whole and with twice the spacing in the borehole, takes {read('coarse_run.json')['wall_seconds'] / 60:.0f} min for its 150 µs."]
 
 

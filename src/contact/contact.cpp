@@ -47,7 +47,7 @@ double clearance(const Places& a, const Places& b, double range, double horizon,
                                             BRISANCE_KERNEL(std::int64_t i, std::int64_t k) { list[k] = static_cast<std::int32_t>(i); });
     beside.build(b.x, b.y, b.z, count, reach / depth, reach, z_low, period, std::numeric_limits<std::int64_t>::max(), depth, true);
     const RingMapView rings = beside.view();
-    const double nearest = -exec::launch_max(a.n, -reach, BRISANCE_KERNEL(std::int64_t i) { return -rings.bound(a.x[i], a.y[i], a.z[i]); });
+    const double nearest = -exec::launch_max(a.n, -reach, BRISANCE_KERNEL(std::int64_t i) { return -rings.bound({a.x[i], a.y[i], a.z[i]}); });
     return std::max(0.0, nearest - range);
 }
 

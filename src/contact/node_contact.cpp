@@ -86,12 +86,10 @@ struct NodeKernel {
         });
         touched[g] = {};
         Gathered<6> near;  // place, spacing, point, shift
-        bool any = false;
         for (const Layer& layer : other.layer) {
             const double reach = 0.5 * (widest + layer.widest);
             if (layer.map.grid.entries == 0 || layer.map.bound(box.middle()) >= reach + norm(box.half())) continue;
             ranges(layer.map.grid, box, reach, [&](std::int64_t first, std::int64_t last) {
-                any = true;
                 for (std::int64_t k = first; k < last && near.all; ++k) {
                     const std::int64_t point = layer.points[layer.map.grid.index[k]];
                     const double shift = layer.map.grid.shift[k], x = other.points.place[0][point], y = other.points.place[1][point], z = other.points.place[2][point] + shift;
@@ -99,7 +97,7 @@ struct NodeKernel {
                 }
             });
         }
-        if (!any || (near.all && near.count == 0)) return;
+        if (near.all && near.count == 0) return;
         const SortedView<6> v = near.view();
         me.groups.each(g, [&](std::int64_t i) {
             Felt felt;

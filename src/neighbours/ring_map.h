@@ -12,14 +12,13 @@ struct RingMapView {
     CellGridView grid;
     const std::uint8_t* rings = nullptr;  ///< null: there is none
 
-    /// A lower bound of the distance from (x, y, z) to the grid's points, mm; no more than the map is deep. Where the grid is periodic it is one
+    /// A lower bound of the distance from p to the grid's points, mm; no more than the map is deep. Where the grid is periodic it is one
     /// as far as the grid's images reach.
-    BRISANCE_HD double bound(double x, double y, double z) const {
+    BRISANCE_HD double bound(const Vec3<double>& p) const {
         if (!rings) return 0;
-        const int ring = rings[grid.row(grid.place(y, 1), grid.place(z, 2)) + grid.place(x, 0)];
+        const int ring = rings[grid.row(grid.place(p.y, 1), grid.place(p.z, 2)) + grid.place(p.x, 0)];
         return ring > 1 ? (ring - 1) * grid.cell : 0.0;
     }
-    BRISANCE_HD double bound(const Vec3<double>& p) const { return bound(p.x, p.y, p.z); }
 };
 
 class RingMap {

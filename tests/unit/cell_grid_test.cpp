@@ -144,7 +144,7 @@ TEST(RingMap, BoundsTheDistanceToTheNextPoint) {
                             nearest = std::min(nearest, std::sqrt(dx * dx + dy * dy + dz * dz));
                             axis = std::min(axis, std::max({dx, dy, dz}));
                         }
-                    const double bound = map.view().bound(x, y, z);
+                    const double bound = map.view().bound({x, y, z});
                     EXPECT_LE(std::min(bound, reach), nearest);
                     EXPECT_LE(bound, depth * grid.view().cell);
                     // a place outside of the grid is looked up at its rim

@@ -355,7 +355,6 @@ TEST(Contact, ClearanceIsABound) {
     }
 }
 
-// A piston of gas, fine against a coarse copper plate, hard driven: nothing may come through, and the balance closes.
 TEST(Contact, ClearanceKnowsALongCoarseWall) {
     // a tube of points much farther apart than the cells that tell the distance
     std::array<std::vector<double>, 3> wall;
@@ -371,6 +370,7 @@ TEST(Contact, ClearanceKnowsALongCoarseWall) {
     EXPECT_LE(found, 0.5 + 1e-12);
 }
 
+// A piston of gas, fine against a coarse copper plate, hard driven: nothing may come through, and the balance closes.
 TEST(Contact, AFluidPistonDoesNotLeakThroughACopperWall) {
     for (const double speed : {0.5, 3.0}) {
         World<double> w;

@@ -279,7 +279,7 @@ struct RatesKernel {
         hsums({ax, ay, az, heat, viscous, artificial}, s);
         for (int a = 0; a < 3; ++a) b.acceleration[a][i] = s[a] / rho;
         b.e_rate[i] = (b.pressure[i] + w.q[i]) / rho * b.rho_rate[i] + s[3];
-        w.mu[i] = std::min(hmax(mu_largest), 2.4 * me[3] * me[3] * hsum(mu_felt));
+        w.mu[i] = std::min(hmax(mu_largest), 1.2 * 2.0 * me[3] * me[3] * hsum(mu_felt));  // 2: the sum has rho_i + rho_j for their mean
         return {b.mass[i] * (s[4] + w.q[i] / rho * b.rho_rate[i]), b.mass[i] * s[5]};
     }
 };
