@@ -111,15 +111,18 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
     complete(b);
     s.pairs = find_column_pairs<R>(b.layout, p.smoothing);
 
-    const StrengthField field(p.heterogeneity.weibull_modulus, p.heterogeneity.correlation_length, p.heterogeneity.seed,
-                              extent.periodic ? extent.high - extent.low : 0);
-    if (p.heterogeneity.weibull_modulus > 0) exec::for_each(static_cast<std::int64_t>(b.layout.columns.size()), [&](std::int64_t n) {
-        const Column& column = b.layout.columns[static_cast<std::size_t>(n)];
-        for (int k = 0; k < column.layers; ++k) {
-            const auto i = static_cast<std::size_t>(column.start + k);
-            b.scale[i] = static_cast<R>(field({column.x, column.y, column.z0 + k * b.layout.dz}));
-        }
-    });
+    if (p.heterogeneity.weibull_modulus > 0) {
+        const StrengthField field(p.heterogeneity.weibull_modulus, p.heterogeneity.correlation_length, p.heterogeneity.seed,
+                                  extent.periodic ? extent.high - extent.low : 0);
+        b.scale.assign(b.energy.size(), R(1));
+        exec::for_each(static_cast<std::int64_t>(b.layout.columns.size()), [&](std::int64_t n) {
+            const Column& column = b.layout.columns[static_cast<std::size_t>(n)];
+            for (int k = 0; k < column.layers; ++k) {
+                const auto i = static_cast<std::size_t>(column.start + k);
+                b.scale[i] = static_cast<R>(field({column.x, column.y, column.z0 + k * b.layout.dz}));
+            }
+        });
+    }
     for (const Column& column : b.layout.columns)  // one after the other: a formula may object
         for (int k = 0; k < column.layers; ++k) {
             const auto i = static_cast<std::size_t>(column.start + k);
@@ -261,10 +264,12 @@ Estimate estimate(const Case& c) {
         const double real = single ? 4 : 8, width = single ? tile_width<float> : tile_width<double>;
         const double pad = largest_offset(p.smoothing);
         part.lanes = solid ? columns * std::ceil(layers / width) * width : part.particles;
-        const double slots = solid ? part.lanes + columns * std::ceil(2 * pad / width) * width : part.particles;
-        const double state = m.strength ? static_cast<double>(m.strength->state().size()) : 0;
+        const double slots = !solid ? part.particles : columns * width * (extent.periodic ? std::ceil(layers / width) + std::ceil(2 * pad / width) : std::ceil((layers + pad) / width));
+        double reals = 27 + (p.viscosity.pairwise ? 9 : 0) + (p.failure.fracture_energy ? 1 : 0) + (p.heterogeneity.weibull_modulus > 0 ? 1 : 0);  // particles/solid_body.h
+        if (m.strength)
+            for (const StateInfo& column : m.strength->state()) reals += column.kept;
         constexpr double fluid_bytes = 1300;  // with lists of 70 neighbours: bench water, docs/performance.md
-        const double per_slot = solid ? real * (31 + state + (p.viscosity.pairwise ? 6 : 0) + (p.failure.fracture_energy ? 1 : 0)) + 4 * 6 + 2 : fluid_bytes;
+        const double per_slot = solid ? real * reals + 7 * sizeof(float) + 2 : fluid_bytes;
         part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
         part.dt = solid ? c.step.courant_solid * stencil_tau(p.smoothing, p.zero_energy) * std::min(p.spacing, p.spacing_z) / m.sound_speed()
                         : c.step.courant_fluid * p.smoothing * p.spacing /

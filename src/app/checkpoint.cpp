@@ -14,7 +14,7 @@ namespace brisance {
 
 namespace {
 
-constexpr const char* schema = "brisance checkpoint 4";
+constexpr const char* schema = "brisance checkpoint 5";
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;

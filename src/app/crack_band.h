@@ -45,7 +45,7 @@ void check_crack_band(SolidBody<R>& b, const FailureData& failure) {
     double brittle = 0, all = 0;
     for (const Column& c : b.layout.columns)
         for (int layer = 0; layer < c.layers; ++layer) {
-            const double here = strength * static_cast<double>(b.scale[static_cast<std::size_t>(c.start + layer)]);
+            const double here = strength * b.strength_scale(static_cast<std::size_t>(c.start + layer));
             brittle += crack_band_spacings * std::cbrt(b.volume(c)) > widest_band(young, energy, here) / 1.05;
             ++all;
         }

@@ -43,7 +43,7 @@ int nearest_layer(const Columns& layout, const Column& c, double z) {
 template <class R>
 std::uint8_t cause_of(const SolidBody<R>& b, std::size_t i, const AnalysisData& a) {
     if (b.failure_time[i] < 0) return 0;
-    const double scale = static_cast<double>(b.scale[i]);
+    const double scale = b.strength_scale(i);
     return static_cast<std::uint8_t>(analysis::cause_of_failure(b.sigma_1[i] / scale, b.tau_max[i] / scale, a.tensile_strength, a.shear_strength));
 }
 

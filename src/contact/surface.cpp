@@ -84,7 +84,7 @@ struct FollowKernel {
     BRISANCE_HD void operator()(std::int64_t p) const {
         const std::int64_t slot = s.slot[p];
         const Column& column = b.columns[s.column[p]];
-        const bool live = b.live[slot] > R(0);
+        const bool live = b.live[slot] != 0;
         const Mat3<double> f = deformation_gradient(b, pairs, s.column[p], slot);
         const double face = s.face[p];
         const Vec3<double> normal = face == 0 ? Vec3<double>{column.wall_normal_x, column.wall_normal_y, 0} : Vec3<double>{0, 0, face};

@@ -18,6 +18,7 @@ namespace brisance {
 struct StateInfo {
     std::string name, unit, meaning;
     double initial = 0;
+    bool kept = true;  ///< false: nothing depends on it. The driver of a single point follows it; a body does not keep it
 };
 
 inline constexpr int max_law_state = 6;

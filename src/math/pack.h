@@ -92,6 +92,17 @@ template <class V> BRISANCE_INLINE V load_float(const float* p) {
 template <class V> BRISANCE_INLINE void store_float(float* p, V v) {
     for (int l = 0; l < lanes_of<V>; ++l) p[l] = static_cast<float>(lane(v, l));
 }
+/// Lanes from bytes.
+template <class V> BRISANCE_INLINE V load_bytes(const std::uint8_t* p) {
+    if constexpr (lanes_of<V> == 1) {
+        return static_cast<V>(*p);
+    } else {
+        typedef std::uint8_t Bytes __attribute__((vector_size(lanes_of<V>)));
+        Bytes bytes;
+        std::memcpy(&bytes, p, sizeof(bytes));
+        return __builtin_convertvector(bytes, V);
+    }
+}
 namespace detail {
 #ifndef BRISANCE_CUDA
 /// Lane l of the result is lane l ^ step of x.

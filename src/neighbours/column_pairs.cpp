@@ -45,7 +45,7 @@ private:
 
 }  // namespace
 
-int largest_offset(double smoothing) { return static_cast<int>(std::ceil(2 * smoothing)) + 1; }
+int largest_offset(double smoothing) { return static_cast<int>(std::ceil(2 * smoothing)); }
 
 template <class R>
 ColumnPairs<R> find_column_pairs(Columns& body, double smoothing) {

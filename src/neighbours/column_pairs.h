@@ -49,7 +49,7 @@ PairsView<R> view(const ColumnPairs<R>& p) {
 /// `smoothing` is h/spacing in the section and along z. Sets columns.pad beforehand through `largest_offset`.
 template <class R> ColumnPairs<R> find_column_pairs(Columns& columns, double smoothing);
 
-/// Largest offset along z that a bond can have.
+/// Largest offset along z that a bond can have: that of columns shifted against each other by a layer.
 int largest_offset(double smoothing);
 
 }  // namespace brisance

@@ -56,16 +56,17 @@ struct Columns {
     std::int64_t particles = 0;
 };
 
-/// Gives every column its slots and cuts the tiles; `present(column, layer)` tells which places hold a particle.
+/// Gives every column its slots and cuts the tiles; `present(column, layer)` tells which places hold a particle. The empty slots between two
+/// columns serve both: what reaches beyond the end of one must not meet the other. Only periodic images need places of their own.
 template <class Present>
 void lay_out(Columns& c, Present&& present) {
     std::int64_t next = 0;
     const auto round_up = [&](std::int64_t n) { return (n + c.width - 1) / c.width * c.width; };
     for (Column& column : c.columns) {
         column.start = round_up(next + c.pad);
-        next = column.start + round_up(column.layers) + c.pad;
+        next = column.start + (c.periodic ? round_up(column.layers) + c.pad : column.layers);
     }
-    c.slots = round_up(next) + c.width;
+    c.slots = round_up(next + c.pad) + c.width;
     c.flags.assign(static_cast<std::size_t>(c.slots), 0);
     c.tiles.clear();
     c.particles = 0;

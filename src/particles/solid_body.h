@@ -42,15 +42,15 @@ struct SolidBody {
     std::array<Array<R>, 3> v_now, acceleration, viscous_force;
     std::array<Array<R>, 9> R_sum;  ///< sum w (u_j - u_i) (x) xi = (F - I) K, row-major
     std::array<Array<R>, 9> T;      ///< P K^-1 - a (F - I), GPa: what the stress sum needs, and whence the deviator (formulations/total_lagrangian/stress.cpp)
-    Array<R> pressure;              ///< GPa
     Array<R> energy;                ///< internal energy per initial volume, GPa, exact to the kicks done so far
     Array<R> power;                 ///< P : dF/dt at t_n with the velocity of t_n-1/2, GPa/us
     Array<R> stiffness;             ///< a, of the zero-energy control, GPa
-    Array<R> scale;                 ///< strength scale of the place
-    Array<R> live;                  ///< 1: takes part in the sums; 0: padding or torn
-    std::vector<Array<R>> state;    ///< the law's columns
+    Array<std::uint8_t> live;       ///< 1: takes part in the sums; 0: padding or torn
+    std::vector<Array<R>> state;    ///< the law's columns; of one that is not kept, nothing
+    Array<R> scale;                 ///< strength scale of the place; none: 1 everywhere
     Array<R> opening;               ///< volume strain of open cracks; only with a fracture energy
     // what analysis wants, in single precision
+    Array<float> pressure;                       ///< GPa
     Array<float> peak_pressure, peak_radial;     ///< GPa, largest so far (radial: compression positive)
     Array<float> sigma_1, tau_max;               ///< GPa, largest before failure
     Array<float> failure_time;                   ///< us; negative: whole
@@ -60,6 +60,7 @@ struct SolidBody {
 
     /// Damage of a slot: by convention the first column of the law's state; 0 for a law without state.
     double damage(std::size_t slot) const { return state.empty() ? 0.0 : static_cast<double>(state[0][slot]); }
+    double strength_scale(std::size_t slot) const { return scale.empty() ? 1.0 : static_cast<double>(scale[slot]); }
     double volume(const Column& c) const { return c.area * layout.dz; }
     double mass(const Column& c) const { return material.density * volume(c); }
 };
@@ -69,10 +70,10 @@ template <class R>
 struct SolidView {
     R *u[3], *v[3], *v_now[3], *acceleration[3], *viscous_force[3];
     R *R_sum[9], *T[9];
-    R *pressure, *energy, *power, *stiffness, *scale, *live, *opening;
+    R *energy, *power, *stiffness, *scale, *opening;
     R* state[max_law_state];
-    float *peak_pressure, *peak_radial, *sigma_1, *tau_max, *failure_time, *yield;
-    std::uint8_t* flags;
+    float *pressure, *peak_pressure, *peak_radial, *sigma_1, *tau_max, *failure_time, *yield;
+    std::uint8_t *live, *flags;
     const Tile* tiles;
     const Column* columns;
     double dz;
@@ -100,12 +101,12 @@ SolidView<R> view(const SolidBody<R>& constant) {
     take_pointers(s.viscous_force, b.viscous_force);
     take_pointers(s.R_sum, b.R_sum);
     take_pointers(s.T, b.T);
-    take_pointers(s.state, b.state);
+    for (std::size_t k = 0; k < b.state.size(); ++k) s.state[k] = b.state[k].empty() ? nullptr : b.state[k].data();
     s.pressure = b.pressure.data();
     s.energy = b.energy.data();
     s.power = b.power.data();
     s.stiffness = b.stiffness.data();
-    s.scale = b.scale.data();
+    s.scale = b.scale.empty() ? nullptr : b.scale.data();
     s.live = b.live.data();
     s.opening = b.opening.data();
     s.peak_pressure = b.peak_pressure.data();
@@ -137,18 +138,18 @@ void allocate(SolidBody<R>& b) {
             for (auto& a : *group) a.assign(n, R(0));
     for (auto& a : b.R_sum) a.assign(n, R(0));
     for (auto& a : b.T) a.assign(n, R(0));
-    for (auto* a : {&b.pressure, &b.energy, &b.power, &b.stiffness, &b.live}) a->assign(n, R(0));
-    b.scale.assign(n, R(1));
+    for (auto* a : {&b.energy, &b.power, &b.stiffness}) a->assign(n, R(0));
+    b.live.assign(n, 0);
     if (b.options.failure.fracture_energy > 0) b.opening.assign(n, R(0));
     b.energy.assign(n, R(b.material.eos->initial_energy()));
     b.state.clear();
-    for (const StateInfo& info : b.material.strength->state()) b.state.emplace_back(n, R(info.initial));
-    for (auto* a : {&b.peak_pressure, &b.peak_radial, &b.sigma_1, &b.tau_max, &b.yield}) a->assign(n, 0.0f);
+    for (const StateInfo& info : b.material.strength->state()) b.state.emplace_back(info.kept ? n : 0, R(info.initial));
+    for (auto* a : {&b.pressure, &b.peak_pressure, &b.peak_radial, &b.sigma_1, &b.tau_max, &b.yield}) a->assign(n, 0.0f);
     b.failure_time.assign(n, -1.0f);
     const R a0 = static_cast<R>(b.options.zero_energy * b.material.longitudinal_modulus());
     for (std::size_t i = 0; i < n; ++i)
         if (b.layout.flags[i] & slot_own) {
-            b.live[i] = R(1);
+            b.live[i] = 1;
             b.stiffness[i] = a0;
         }
 }

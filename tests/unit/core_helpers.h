@@ -69,7 +69,7 @@ SolidPart<R> solid(const Material& material, const SolidOptions& options, std::v
     layout.pad = largest_offset(options.smoothing);
     lay_out(layout, present);
     allocate(s.body);
-    fill_images(layout, {s.body.live.data(), s.body.stiffness.data()});
+    complete(s.body);
     s.pairs = find_column_pairs<R>(layout, options.smoothing);
     s.surface = make_surface(s.body);
     return s;

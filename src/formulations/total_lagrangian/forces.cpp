@@ -32,7 +32,8 @@ BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pai
     const std::int64_t c = column;
     const R *t0 = b.T[0] + i, *t1 = b.T[1] + i, *t2 = b.T[2] + i, *t3 = b.T[3] + i, *t4 = b.T[4] + i, *t5 = b.T[5] + i, *t6 = b.T[6] + i,
             *t7 = b.T[7] + i, *t8 = b.T[8] + i;
-    const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *stiffness = b.stiffness + i, *live = b.live + i;
+    const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *stiffness = b.stiffness + i;
+    const std::uint8_t* live = b.live + i;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), ai = load<V>(stiffness);
     [[maybe_unused]] const R *vx = nullptr, *vy = nullptr, *vz = nullptr;
     [[maybe_unused]] V vxi{}, vyi{}, vzi{};
@@ -57,7 +58,7 @@ BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pai
             const std::int64_t j = pair.shift + o;
             V weight = broadcast<V>(w[o]);
             if constexpr (masked) {
-                weight = weight * load<V>(live + j);
+                weight = weight * load_bytes<V>(live + j);
                 m0 += weight;
                 m1 += weight * z;
             }
@@ -107,7 +108,7 @@ BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pai
     f.y += load<V>(t3) * gx + load<V>(t4) * gy + load<V>(t5) * gz + ky;
     f.z += load<V>(t6) * gx + load<V>(t7) * gy + load<V>(t8) * gz + kz;
     if constexpr (masked) {
-        const V on = load<V>(live);
+        const V on = load_bytes<V>(live);
         f.x *= on;
         f.y *= on;
         f.z *= on;
@@ -214,7 +215,8 @@ struct SumsKernel {
 
 template <class R>
 void complete(SolidBody<R>& b) {
-    fill_images(b.layout, {b.live.data(), b.stiffness.data()});
+    fill_images(b.layout, {b.live.data()});
+    fill_images(b.layout, {b.stiffness.data()});
     fill_images(b.layout, b.v);
 }
 

@@ -13,7 +13,7 @@ namespace brisance {
 template <class V, class R>
 BRISANCE_HD V misfit(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& tile, R dt, const Sym3<V>& k_inverse) {
     const std::int64_t i = tile.base, c = tile.column;
-    const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *vx = b.v[0] + i, *vy = b.v[1] + i, *vz = b.v[2] + i, *live = b.live + i;
+    const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *vx = b.v[0] + i, *vy = b.v[1] + i, *vz = b.v[2] + i;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), vxi = load<V>(vx), vyi = load<V>(vy), vzi = load<V>(vz);
     Mat3<V> now{}, before{};  // R of the two instants
     V product{};
@@ -35,7 +35,7 @@ BRISANCE_HD V misfit(const SolidView<R>& b, const PairsView<R>& pairs, const Til
         for (int o = 0; o < pair.count; ++o, z += pair.dz) {
             const std::int64_t j = pair.shift + o;
             V weight = broadcast<V>(pairs.w[pair.weights + o]);
-            if (tile.masked) weight = weight * load<V>(live + j);
+            if (tile.masked) weight = weight * load_bytes<V>(b.live + i + j);
             const Vec3<V> du{load<V>(ux + j) - xi, load<V>(uy + j) - yi, load<V>(uz + j) - zi};
             const Vec3<V> earlier{du.x - dt * (load<V>(vx + j) - vxi), du.y - dt * (load<V>(vy + j) - vyi), du.z - dt * (load<V>(vz + j) - vzi)};
             product += weight * dot(du, earlier);

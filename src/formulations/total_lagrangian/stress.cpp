@@ -40,7 +40,8 @@ BRISANCE_HD Gathered<V> whole(const PairsView<R>& pairs, std::int32_t column) {
 template <class V, bool masked, class R>
 BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs, std::int64_t base, std::int32_t column) {
     const std::int64_t c = column;
-    const R *ux = b.u[0] + base, *uy = b.u[1] + base, *uz = b.u[2] + base, *live = b.live + base;
+    const R *ux = b.u[0] + base, *uy = b.u[1] + base, *uz = b.u[2] + base;
+    const std::uint8_t* live = b.live + base;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz);
     Gathered<V> g;
     if constexpr (!masked) g = whole<V>(pairs, column);
@@ -56,7 +57,7 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
             const V dx = load<V>(ux + j) - xi, dy = load<V>(uy + j) - yi, dz = load<V>(uz + j) - zi;
             V weight = broadcast<V>(w[o]);
             if constexpr (masked) {
-                weight = weight * load<V>(live + j);
+                weight = weight * load_bytes<V>(live + j);
                 m0 += weight;
                 m1 += weight * z;
                 m2 += weight * (z * z);
@@ -90,7 +91,7 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
     if constexpr (masked) {
         // A particle with too few neighbours, or with neighbours in one plane, has no gradient: K^-1 = 0 leaves it F = I and T = 0, and the
         // guard takes it out. det K/(tr K/3)^3 is 1 inside and at a plane surface, 0.6 at an edge, 0.3 at a corner.
-        const V own = load<V>(live);
+        const V own = load_bytes<V>(live);
         const V t = trace(K);
         const auto good = (own * det(K) > R(0.1) * t * t * t * R(1.0 / 27.0)) & (t > R(0.1));
         const V one = broadcast<V>(R(1)), zero{};
@@ -213,7 +214,7 @@ private:
     BRISANCE_HD StressSums update(const Tile& tile, const Gathered<V>& g) const {
         const std::int64_t i = tile.base;
         const Column& column = b.columns[tile.column];
-        const V zero{}, one = broadcast<V>(R(1)), on = load<V>(b.live + i);
+        const V zero{}, one = broadcast<V>(R(1)), on = load_bytes<V>(b.live + i);
         const auto alive = on > R(0);
 
         // kinematics
@@ -242,8 +243,9 @@ private:
         [[maybe_unused]] Mat3<V> lost;
         if constexpr (single) lost = pk_old - piola(sigma_old, cofactor(f_old), g.k_inverse);
         p.dt = broadcast<V>(dt);
-        p.scale = load<V>(b.scale + i);
-        for (int k = 0; k < n_state; ++k) p.state[k] = load<V>(b.state[k] + i);
+        p.scale = b.scale ? load<V>(b.scale + i) : one;
+        for (int k = 0; k < n_state; ++k)
+            if (b.state[k]) p.state[k] = load<V>(b.state[k] + i);
         const V damage_old = n_state > 0 ? p.state[0] : zero;
         const V expansion = trace(step.d);
         [[maybe_unused]] V opening{}, lift{};
@@ -297,12 +299,13 @@ private:
 
         store_matrix(b.R_sum, i, g.r);
         const auto keep = [&](R* a, V x) { store(a + i, (alive ? x : load<V>(a + i))); };
-        keep(b.pressure, p.pressure);
+        store_float(b.pressure + i, alive ? p.pressure : zero);
         if constexpr (softens) keep(b.opening, opening);
         keep(b.energy, energy);
         store(b.power + i, alive ? ddot(pk, dr) / dt : zero);
         store(b.stiffness + i, a_keep);
-        for (int k = 0; k < n_state; ++k) keep(b.state[k], p.state[k]);
+        for (int k = 0; k < n_state; ++k)
+            if (b.state[k]) keep(b.state[k], p.state[k]);
         store_float(b.yield + i, p.yield);
 
         // sums of the tile: only lanes that are particles
@@ -433,12 +436,12 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         return static_cast<std::size_t>(it - b.layout.columns.begin()) - 1;
     };
     for (std::size_t k = 0; k < b.layout.flags.size(); ++k) {
-        if (!(b.layout.flags[k] & slot_torn) || b.live[k] == R(0)) continue;
+        if (!(b.layout.flags[k] & slot_torn) || !b.live[k]) continue;
         torn.push_back(k);
         const std::size_t c = column_of(static_cast<std::int64_t>(k));
         for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {
             const ColumnPair<R>& pair = pairs.pairs[static_cast<std::size_t>(p)];
-            const std::size_t other = column_of(b.layout.columns[c].start + pair.shift + (b.layout.pad + 1));
+            const std::size_t other = column_of(b.layout.columns[c].start + pair.shift + pair.count);  // the offset after the last: from 0 to the pad
             for (std::size_t t = first_tile[other]; t < first_tile[other + 1]; ++t) is_touched[t] = true;
         }
         for (std::size_t t = first_tile[c]; t < first_tile[c + 1]; ++t) is_touched[t] = true;
@@ -453,7 +456,11 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         exec::for_each(static_cast<std::int64_t>(touched.size()), [&](std::int64_t n) { f(body.pack(touched[static_cast<std::size_t>(n)]), stress_of[static_cast<std::size_t>(n)]); });
     };
     each_touched([&](const Tile& pack, Sym3<V>& sigma) { sigma = kept_stress(body, pack.base, gather_k<V>(body, bonds, pack)); });
-    for (const std::size_t k : torn) b.live[k] = b.pressure[k] = b.power[k] = b.stiffness[k] = R(0);
+    for (const std::size_t k : torn) {
+        b.live[k] = 0;
+        b.pressure[k] = 0;
+        b.power[k] = b.stiffness[k] = R(0);
+    }
     for (std::size_t t = 0; t < is_touched.size(); ++t)
         if (is_touched[t]) b.layout.tiles[t].masked = true;
     fill_images(b.layout, {b.live.data()});

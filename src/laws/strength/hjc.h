@@ -52,7 +52,7 @@ struct Hjc {
     }
     static std::vector<StateInfo> state() {
         return {{"damage", "-", "HJC damage D", 0},
-                {"plastic_strain", "-", "equivalent plastic strain", 0},
+                {"plastic_strain", "-", "equivalent plastic strain", 0, false},
                 {"compaction", "-", "largest mu so far, beyond UC", 0}};
     }
 

@@ -46,7 +46,7 @@ struct Jh2 {
     }
     static std::vector<StateInfo> state() {
         return {{"damage", "-", "JH-2 damage D", 0},
-                {"plastic_strain", "-", "equivalent plastic strain", 0},
+                {"plastic_strain", "-", "equivalent plastic strain", 0, false},
                 {"bulking", "GPa", "bulking pressure dP", 0}};
     }
 

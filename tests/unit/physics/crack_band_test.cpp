@@ -30,6 +30,7 @@ Broken pull(const Material& material, double spacing, double fracture_energy, do
     const int n = static_cast<int>(std::lround(length / spacing)), m = static_cast<int>(std::lround(width / spacing));
     SolidPart<R> part = block<R>(material, o, Lattice{n, m, m, spacing, spacing, false, false, false});
     SolidBody<R>& b = part.body;
+    b.scale.assign(b.energy.size(), R(1));
     std::vector<std::size_t> ends[2];
     each(b, [&](std::size_t i, const Column&, Vec3<double> x) {
         b.scale[i] = R(1 - notch * std::exp(-sq((x.x - length / 2) / 1.5)));
