@@ -42,7 +42,7 @@ double fast_limit(World<R>& w) {
         if (f.rate > 0) bound(w.options.courant_fluid / f.rate, f.body.name + ": wave");
         const double* const burnt = f.body.burnt.data();
         const bool burning = f.body.material.burn && exec::launch_max(f.body.size(), -1.0, BRISANCE_KERNEL(std::int64_t i) { return -burnt[i]; }) > -1;
-        if (burning) bound(0.25 * f.body.spacing / f.body.material.burn->speed, f.body.name + ": burn");
+        if (burning) bound(0.5 * f.body.spacing / f.body.material.burn->speed, f.body.name + ": burn");
     }
     if (w.dt_free > 0 && dt > w.options.growth * w.dt_free) {
         dt = w.options.growth * w.dt_free;
