@@ -66,20 +66,22 @@ double choose_step(World<R>& w, double until) {
         if (f.rate > 0) fluids = std::min(fluids, w.options.courant_fluid / f.rate);
         fluid_particles += static_cast<double>(f.body.size());
     }
-    // Solids with the longest limits are slow. How many: the division that costs least, particles times steps per time.
+    // Solids with the longest limits are slow. How many: the division that costs least, particles times steps per time. It is told by the limits,
+    // not by the step at hand: a solid that took a short one has to lengthen its own again, by at most half at a time.
     std::vector<std::size_t> order(w.solids.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return solid_limit(w, w.solids[a]) > solid_limit(w, w.solids[b]); });
     double best = 1e300, slow_step = 1e300;
     std::size_t slow_count = 0;
     for (std::size_t n = 0; n <= order.size(); ++n) {
-        double fast = fluids, slow = 1e300, fast_particles = fluid_particles, slow_particles = 0;
+        double fast = fluids, slow = 1e300, reached = 1e300, fast_particles = fluid_particles, slow_particles = 0;
         for (std::size_t k = 0; k < order.size(); ++k) {
             const SolidPart<R>& s = w.solids[order[k]];
             const double limit = solid_limit(w, s), count = static_cast<double>(s.body.layout.particles);
             if (k < n) {
                 if (!s.loads.empty()) slow = 0;  // a prescribed load is followed in short steps
-                slow = std::min(slow, s.dt > 0 ? std::min(limit, 1.5 * s.dt) : limit);
+                slow = std::min(slow, limit);
+                if (s.dt > 0) reached = std::min(reached, 1.5 * s.dt);
                 slow_particles += count;
             } else {
                 fast = std::min(fast, limit);
@@ -92,7 +94,7 @@ double choose_step(World<R>& w, double until) {
         if (cost < best) {
             best = cost;
             slow_count = n;
-            slow_step = slow;
+            slow_step = std::min(slow, reached);
         }
     }
     for (std::size_t k = 0; k < slow_count; ++k) w.solids[order[k]].slow = true;

@@ -86,6 +86,24 @@ TEST(Step, LongStepsGiveWhatShortOnesDo) {
     EXPECT_LT(off[1], 0.6 * off[0]);
 }
 
+TEST(Step, ASolidThatTookAShortStepFindsBackToLongOnes) {
+    World<double> w = gas_between_plates();
+    keep_in_step(w);
+    begin(w);
+    run(w, 0.5);
+    SolidPart<double>& rock = w.solids[0];
+    const double short_one = rock.dt;
+    for (SolidPart<double>& s : w.solids) s.loads.clear();
+    for (int n = 0; n < 6; ++n) {
+        const double before = rock.dt;
+        step(w, 10.0);
+        EXPECT_TRUE(rock.slow);
+        EXPECT_LE(rock.dt, 1.5 * before * (1 + 1e-12)) << "at most half longer at a time";
+    }
+    EXPECT_GT(rock.dt, 2 * short_one);
+    EXPECT_LT(audit(w).momentum_residual, 1e-12);
+}
+
 TEST(Step, OutputTimesAreMetWithoutSplinters) {
     World<double> w = gas_between_plates();
     begin(w);
