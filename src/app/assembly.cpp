@@ -78,6 +78,7 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
         throw InputError(fmt::format("{}: part {} is total_lagrangian, but {} has no strength law; use updated_lagrangian for fluids", p.where, p.name,
                                      p.material.name));
     b.options.smoothing = p.smoothing;
+    b.options.yield = std::any_of(c.gauges.begin(), c.gauges.end(), [&](const GaugeData& g) { return g.part == p.name; });
     b.options.zero_energy = p.zero_energy;
     b.options.pairwise = p.viscosity.pairwise;
     b.options.alpha = p.viscosity.alpha;
@@ -269,7 +270,7 @@ Estimate estimate(const Case& c) {
         if (m.strength)
             for (const StateInfo& column : m.strength->state()) reals += column.kept;
         constexpr double fluid_bytes = 1300;  // with lists of 70 neighbours: bench water, docs/performance.md
-        const double per_slot = solid ? real * reals + 7 * sizeof(float) + 2 : fluid_bytes;
+        const double per_slot = solid ? real * reals + 7 * sizeof(float) + 1 : fluid_bytes;
         part.bytes = slots * per_slot + (solid ? columns * (60 * real + 25 * 48 + 200) : 0);
         part.dt = solid ? c.step.courant_solid * stencil_tau(p.smoothing, p.zero_energy) * std::min(p.spacing, p.spacing_z) / m.sound_speed()
                         : c.step.courant_fluid * p.smoothing * p.spacing /

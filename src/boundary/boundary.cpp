@@ -174,7 +174,7 @@ void press(const WallPressure& w, double time, const SolidBody<R>& b, const Colu
         const double jacobian = det(f);
         const Vec3<double> normal{b.layout.columns[c].wall_normal_x, b.layout.columns[c].wall_normal_y, 0};
         Vec3<double> area = cofactor(f) * normal;
-        if (!b.live[slot] || !(jacobian > 0.2 && jacobian < 5) || !(norm(area) < 3)) area = normal;  // torn or crushed: the area it had
+        if (b.live[slot] == 0 || !(jacobian > 0.2 && jacobian < 5) || !(norm(area) < 3)) area = normal;  // torn or crushed: the area it had
         load[n] = (-pressure * s.area[i]) * area;
         s.fx[i] += load[n].x;
         s.fy[i] += load[n].y;

@@ -83,25 +83,17 @@ template <class V> BRISANCE_INLINE V vsqrt(V x) {
 }
 /// Lanes to and from float, for columns that are stored in single precision whatever V is.
 template <class V> BRISANCE_INLINE V load_float(const float* p) {
-    V v{};
-    if constexpr (lanes_of<V> == 1) v = static_cast<ScalarOf<V>>(*p);
-    else
-        for (int l = 0; l < lanes_of<V>; ++l) v[l] = static_cast<ScalarOf<V>>(p[l]);
-    return v;
-}
-template <class V> BRISANCE_INLINE void store_float(float* p, V v) {
-    for (int l = 0; l < lanes_of<V>; ++l) p[l] = static_cast<float>(lane(v, l));
-}
-/// Lanes from bytes.
-template <class V> BRISANCE_INLINE V load_bytes(const std::uint8_t* p) {
     if constexpr (lanes_of<V> == 1) {
         return static_cast<V>(*p);
     } else {
-        typedef std::uint8_t Bytes __attribute__((vector_size(lanes_of<V>)));
-        Bytes bytes;
-        std::memcpy(&bytes, p, sizeof(bytes));
-        return __builtin_convertvector(bytes, V);
+        typedef float Floats __attribute__((vector_size(lanes_of<V> * sizeof(float))));
+        Floats f;
+        std::memcpy(&f, p, sizeof(f));
+        return __builtin_convertvector(f, V);
     }
+}
+template <class V> BRISANCE_INLINE void store_float(float* p, V v) {
+    for (int l = 0; l < lanes_of<V>; ++l) p[l] = static_cast<float>(lane(v, l));
 }
 namespace detail {
 #ifndef BRISANCE_CUDA
@@ -213,13 +205,15 @@ template <class F> BRISANCE_INLINE void each_lane(unsigned bits, F&& f) {
 #endif
 }
 
-/// Records of eight numbers, one cache line each: out[c] gets component c of the records at first[l], one per lane.
+/// Records of eight numbers, one cache line each.
+inline constexpr int record_length = 8;
+/// out[c] gets component c of the records that begin at records[first[l]], one per lane.
 template <class V> BRISANCE_INLINE void load_records(const ScalarOf<V>* records, const std::int32_t* first, V out[8]) {
     constexpr int n = lanes_of<V>;
 #ifndef BRISANCE_CUDA
     if constexpr (n == 8 || n == 4) {
         for (int part = 0; part < 8; part += n) {
-            for (int l = 0; l < n; ++l) out[part + l] = load<V>(records + 8 * static_cast<std::int64_t>(first[l]) + part);
+            for (int l = 0; l < n; ++l) out[part + l] = load<V>(records + first[l] + part);
             detail::transpose<1>(out + part);
         }
         return;
@@ -227,13 +221,13 @@ template <class V> BRISANCE_INLINE void load_records(const ScalarOf<V>* records,
 #endif
     for (int c = 0; c < 8; ++c) {
         ScalarOf<V> lanes_now[n];
-        for (int l = 0; l < n; ++l) lanes_now[l] = records[8 * static_cast<std::int64_t>(first[l]) + c];
+        for (int l = 0; l < n; ++l) lanes_now[l] = records[first[l] + c];
         out[c] = load<V>(lanes_now);
     }
 }
 
 namespace detail {
-/// Row m: the numbers of the bits that are set in m, one after the other.
+/// Row m: where the records of the bits that are set in m begin, one after the other.
 struct BitsSet {
     std::uint8_t of[256][8];
 };
@@ -241,29 +235,29 @@ consteval BitsSet bits_set() {
     BitsSet table{};
     for (int m = 0; m < 256; ++m)
         for (int bit = 0, n = 0; bit < 8; ++bit)
-            if (m >> bit & 1) table.of[m][n++] = static_cast<std::uint8_t>(bit);
+            if (m >> bit & 1) table.of[m][n++] = static_cast<std::uint8_t>(record_length * bit);
     return table;
 }
 }  // namespace detail
-/// Writes first + l for each lane l where `on` holds (a comparison of two packs of floats), one after the other; returns how many. May
-/// overwrite as many places as a pack has lanes.
+/// Writes where record first + l begins for each lane l where `on` holds (a comparison of two packs of floats), one after the other; returns
+/// how many. May overwrite as many places as a pack has lanes.
 template <class V, class Mask> BRISANCE_INLINE int list_lanes(std::int32_t* out, std::int32_t first, Mask on) {
     static_assert(sizeof(ScalarOf<V>) == sizeof(std::int32_t));
     const unsigned bits = lane_bits(on);
     if constexpr (lanes_of<V> == 1) {
-        *out = first;
+        *out = record_length * first;
         return static_cast<int>(bits);
     } else {
 #if defined(__AVX512VL__) && !defined(BRISANCE_CUDA)
-        const __m512i number = _mm512_add_epi32(_mm512_set1_epi32(first), _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), number));
+        const __m512i place = _mm512_add_epi32(_mm512_set1_epi32(record_length * first), _mm512_setr_epi32(0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120));
+        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), place));
 #elif defined(__AVX2__) && !defined(BRISANCE_CUDA)
         static constexpr detail::BitsSet table = detail::bits_set();
         const __m128i row = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(table.of[bits]));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_cvtepu8_epi32(row)));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_add_epi32(_mm256_set1_epi32(record_length * first), _mm256_cvtepu8_epi32(row)));
 #else
         for (int l = 0, n = 0; l < lanes_of<V>; ++l) {
-            out[n] = first + l;
+            out[n] = record_length * (first + l);
             n += static_cast<int>(bits >> l & 1);
         }
 #endif

@@ -76,7 +76,6 @@ ColumnPairs<R> find_column_pairs(Columns& body, double smoothing) {
             ColumnPair<R> pair{};
             pair.dx = static_cast<R>(dx);
             pair.dy = static_cast<R>(dy);
-            pair.dz = static_cast<R>(body.dz);
             pair.h = static_cast<R>(std::min(h_xy, h_z));
             pair.weights = static_cast<std::int32_t>(out.w.size());
             for (int o = first; o <= last; ++o) {

@@ -9,12 +9,13 @@
 
 namespace brisance {
 
-/// The bonds between all particles of column a and those of column b: slot i of a has neighbours i + shift + o, o = 0 ... count-1.
+/// The bonds between all particles of column a and those of column b: slot i of a has neighbours i + shift + o, o = 0 ... count-1, at z_first + o dz
+/// with the dz of the body.
 template <class R>
 struct ColumnPair {
     std::int64_t shift;
     R dx, dy;        ///< mm
-    R z_first, dz;   ///< z of offset 0, and its step, mm
+    R z_first;       ///< z of offset 0, mm
     R h;             ///< smoothing length of the pair for viscosity: the smaller of section and z, mm
     std::int32_t count;
     std::int32_t weights;  ///< first weight in ColumnPairs::w

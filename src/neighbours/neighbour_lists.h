@@ -2,15 +2,19 @@
 // Who is near whom, for points that move freely: made anew each step from a cell grid, and read by every pass of the step.
 #pragma once
 
+#include "base/error.h"
 #include "exec/launch.h"
 #include "math/pack.h"
 #include "neighbours/support_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 
 namespace brisance {
 
-/// The lists as kernels take them. Of the processor each is in one piece, a whole number of packs; where a pack is one number, the first
+/// The lists as kernels take them: where the record of each neighbour begins (eight numbers an entry). Of the processor each is in one piece, a whole number of packs; where a pack is one number, the first
 /// neighbours of all entries stand together, then the second, ...
 struct NeighbourListsView {
     static constexpr int width = lanes<double>;
@@ -32,7 +36,7 @@ struct NeighbourListsView {
 /// Entries of a grid with their supports, in its order, with a pack of floats behind the last that is out of everybody's reach.
 struct Supports {
     const float *x, *y, *z, *h;   ///< from the grid's corner; h: half of the support
-    const double* records;        ///< eight numbers an entry, x y z h first
+    const double* records;        ///< of each entry, x y z h first
     double h_max;
 
     /// By how much a pair may be farther apart than these floats say: each place is off by 2^-24 of the grid, sums and products by as much of themselves.
@@ -70,7 +74,7 @@ struct SearchKernel {
         });
         if (end > full) return static_cast<double>(end);
         v.count[i] = static_cast<std::int32_t>(end);
-        for (std::int64_t n = end; n % v.width != 0; ++n) *v.at(i, n) = static_cast<std::int32_t>(v.entries);
+        for (std::int64_t n = end; n % v.width != 0; ++n) *v.at(i, n) = static_cast<std::int32_t>(record_length * v.entries);
         return static_cast<double>(end);
     }
 };
@@ -82,6 +86,7 @@ public:
     void build(const CellGridView& grid, const Supports& s, const Wanted& wanted) {
         NeighbourListsView& v = view_;
         v.entries = grid.entries;
+        if (v.entries > most_entries) throw ResourceError(fmt::format("a fluid of {} particles and images; at most {} fit into its lists of neighbours", v.entries, most_entries));
         make_room(count_, static_cast<std::size_t>(v.entries));
         supports_.build(grid, s.h, s.h_max);
         v.count = count_.data();
@@ -96,6 +101,7 @@ public:
     const NeighbourListsView& view() const { return view_; }
 
 private:
+    static constexpr std::int64_t most_entries = std::numeric_limits<std::int32_t>::max() / record_length - 1;
     NeighbourListsView view_{nullptr, nullptr, 0, 96};
     Array<std::int32_t> lists_, count_;
     SupportMap supports_;

@@ -28,6 +28,7 @@ struct SolidOptions {
     double alpha = 0, beta = 0;   ///< pairwise viscosity
     double linear = 0, quadratic = 0;  ///< bulk viscosity
     FailureRule failure;
+    bool yield = false;           ///< the strength in force is kept, for gauges
 };
 
 template <class R>
@@ -45,16 +46,16 @@ struct SolidBody {
     Array<R> energy;                ///< internal energy per initial volume, GPa, exact to the kicks done so far
     Array<R> power;                 ///< P : dF/dt at t_n with the velocity of t_n-1/2, GPa/us
     Array<R> stiffness;             ///< a, of the zero-energy control, GPa
-    Array<std::uint8_t> live;       ///< 1: takes part in the sums; 0: padding or torn
     std::vector<Array<R>> state;    ///< the law's columns; of one that is not kept, nothing
     Array<R> scale;                 ///< strength scale of the place; none: 1 everywhere
     Array<R> opening;               ///< volume strain of open cracks; only with a fracture energy
+    Array<float> live;              ///< 1: takes part in the sums; 0: padding or torn
     // what analysis wants, in single precision
     Array<float> pressure;                       ///< GPa
     Array<float> peak_pressure, peak_radial;     ///< GPa, largest so far (radial: compression positive)
     Array<float> sigma_1, tau_max;               ///< GPa, largest before failure
     Array<float> failure_time;                   ///< us; negative: whole
-    Array<float> yield;                          ///< GPa, strength in force
+    Array<float> yield;                          ///< GPa, strength in force; only where an option asks
 
     double axis_x = 0, axis_y = 0;   ///< radial stress is taken about this axis
 
@@ -72,8 +73,8 @@ struct SolidView {
     R *R_sum[9], *T[9];
     R *energy, *power, *stiffness, *scale, *opening;
     R* state[max_law_state];
-    float *pressure, *peak_pressure, *peak_radial, *sigma_1, *tau_max, *failure_time, *yield;
-    std::uint8_t *live, *flags;
+    float *live, *pressure, *peak_pressure, *peak_radial, *sigma_1, *tau_max, *failure_time, *yield;
+    std::uint8_t* flags;
     const Tile* tiles;
     const Column* columns;
     double dz;
@@ -114,7 +115,7 @@ SolidView<R> view(const SolidBody<R>& constant) {
     s.sigma_1 = b.sigma_1.data();
     s.tau_max = b.tau_max.data();
     s.failure_time = b.failure_time.data();
-    s.yield = b.yield.data();
+    s.yield = b.yield.empty() ? nullptr : b.yield.data();
     s.flags = b.layout.flags.data();
     s.tiles = b.layout.tiles.data();
     s.columns = b.layout.columns.data();
@@ -139,12 +140,12 @@ void allocate(SolidBody<R>& b) {
     for (auto& a : b.R_sum) a.assign(n, R(0));
     for (auto& a : b.T) a.assign(n, R(0));
     for (auto* a : {&b.energy, &b.power, &b.stiffness}) a->assign(n, R(0));
-    b.live.assign(n, 0);
     if (b.options.failure.fracture_energy > 0) b.opening.assign(n, R(0));
     b.energy.assign(n, R(b.material.eos->initial_energy()));
     b.state.clear();
     for (const StateInfo& info : b.material.strength->state()) b.state.emplace_back(info.kept ? n : 0, R(info.initial));
-    for (auto* a : {&b.pressure, &b.peak_pressure, &b.peak_radial, &b.sigma_1, &b.tau_max, &b.yield}) a->assign(n, 0.0f);
+    for (auto* a : {&b.live, &b.pressure, &b.peak_pressure, &b.peak_radial, &b.sigma_1, &b.tau_max}) a->assign(n, 0.0f);
+    if (b.options.yield) b.yield.assign(n, 0.0f);
     b.failure_time.assign(n, -1.0f);
     const R a0 = static_cast<R>(b.options.zero_energy * b.material.longitudinal_modulus());
     for (std::size_t i = 0; i < n; ++i)

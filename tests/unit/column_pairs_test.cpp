@@ -45,7 +45,7 @@ std::map<std::int64_t, Bond> bonds_of(const SolidPart<double>& s, std::size_t co
     for (std::int64_t p = s.pairs.begin[column]; p < s.pairs.begin[column + 1]; ++p) {
         const ColumnPair<double>& pair = s.pairs.pairs[static_cast<std::size_t>(p)];
         for (int o = 0; o < pair.count; ++o) {
-            const bool fresh = out.emplace(slot + pair.shift + o, Bond{s.pairs.w[static_cast<std::size_t>(pair.weights + o)], pair.dx, pair.dy, pair.z_first + o * pair.dz}).second;
+            const bool fresh = out.emplace(slot + pair.shift + o, Bond{s.pairs.w[static_cast<std::size_t>(pair.weights + o)], pair.dx, pair.dy, pair.z_first + o * s.body.layout.dz}).second;
             EXPECT_TRUE(fresh) << "a bond twice";
         }
     }

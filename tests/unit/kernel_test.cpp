@@ -73,7 +73,7 @@ TEST(Kernel, SumsOverACubicLattice) {
             const ColumnPair<double>& pair = s.pairs.pairs[static_cast<std::size_t>(p)];
             bonds += pair.count;
             for (int o = 0; o < pair.count; ++o) {
-                const double z = pair.z_first + o * pair.dz, r = std::sqrt(pair.dx * pair.dx + pair.dy * pair.dy + z * z);
+                const double z = pair.z_first + o * s.body.layout.dz, r = std::sqrt(pair.dx * pair.dx + pair.dy * pair.dy + z * z);
                 sum += kernel::sigma_3d / std::pow(row.h, 3) * kernel::shape(r / (row.h * d));
             }
         }

@@ -44,7 +44,7 @@ std::vector<Sym3<double>> shape_matrices(const SolidPart<R>& s) {
                 const ColumnPair<R>& pair = s.pairs.pairs[static_cast<std::size_t>(p)];
                 for (int o = 0; o < pair.count; ++o) {
                     const R w = s.pairs.w[static_cast<std::size_t>(pair.weights + o)] * s.body.live[static_cast<std::size_t>(slot + pair.shift + o)];
-                    const double x = pair.dx, y = pair.dy, z = pair.z_first + static_cast<R>(o) * pair.dz;
+                    const double x = pair.dx, y = pair.dy, z = pair.z_first + static_cast<R>(o * s.body.layout.dz);
                     K = {K.xx + w * x * x, K.yy + w * y * y, K.zz + w * z * z, K.xy + w * x * y, K.xz + w * x * z, K.yz + w * y * z};
                 }
             }

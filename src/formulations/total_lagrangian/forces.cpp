@@ -30,10 +30,11 @@ struct Viscosity {
 template <class V, bool masked, bool viscous, class R>
 BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pairs, std::int64_t i, std::int32_t column, const Viscosity<R>& visc) {
     const std::int64_t c = column;
+    const R layer = static_cast<R>(b.dz);
     const R *t0 = b.T[0] + i, *t1 = b.T[1] + i, *t2 = b.T[2] + i, *t3 = b.T[3] + i, *t4 = b.T[4] + i, *t5 = b.T[5] + i, *t6 = b.T[6] + i,
             *t7 = b.T[7] + i, *t8 = b.T[8] + i;
     const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *stiffness = b.stiffness + i;
-    const std::uint8_t* live = b.live + i;
+    const float* live = b.live + i;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), ai = load<V>(stiffness);
     [[maybe_unused]] const R *vx = nullptr, *vy = nullptr, *vz = nullptr;
     [[maybe_unused]] V vxi{}, vyi{}, vzi{};
@@ -54,11 +55,11 @@ BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pai
         V sxx{}, sxy{}, syx{}, syy{}, szx{}, szy{};
         [[maybe_unused]] V m0{}, m1{};
         R z = pair.z_first;
-        for (int o = 0; o < pair.count; ++o, z += pair.dz) {
+        for (int o = 0; o < pair.count; ++o, z += layer) {
             const std::int64_t j = pair.shift + o;
             V weight = broadcast<V>(w[o]);
             if constexpr (masked) {
-                weight = weight * load_bytes<V>(live + j);
+                weight = weight * load_float<V>(live + j);
                 m0 += weight;
                 m1 += weight * z;
             }
@@ -108,7 +109,7 @@ BRISANCE_HD Force<V> gather_force(const SolidView<R>& b, const PairsView<R>& pai
     f.y += load<V>(t3) * gx + load<V>(t4) * gy + load<V>(t5) * gz + ky;
     f.z += load<V>(t6) * gx + load<V>(t7) * gy + load<V>(t8) * gz + kz;
     if constexpr (masked) {
-        const V on = load_bytes<V>(live);
+        const V on = load_float<V>(live);
         f.x *= on;
         f.y *= on;
         f.z *= on;

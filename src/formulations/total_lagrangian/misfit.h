@@ -13,6 +13,7 @@ namespace brisance {
 template <class V, class R>
 BRISANCE_HD V misfit(const SolidView<R>& b, const PairsView<R>& pairs, const Tile& tile, R dt, const Sym3<V>& k_inverse) {
     const std::int64_t i = tile.base, c = tile.column;
+    const R layer = static_cast<R>(b.dz);
     const R *ux = b.u[0] + i, *uy = b.u[1] + i, *uz = b.u[2] + i, *vx = b.v[0] + i, *vy = b.v[1] + i, *vz = b.v[2] + i;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz), vxi = load<V>(vx), vyi = load<V>(vy), vzi = load<V>(vz);
     Mat3<V> now{}, before{};  // R of the two instants
@@ -32,10 +33,10 @@ BRISANCE_HD V misfit(const SolidView<R>& b, const PairsView<R>& pairs, const Til
         const ColumnPair<R>& pair = pairs.pairs[p];
         const V x = broadcast<V>(pair.dx), y = broadcast<V>(pair.dy);
         R z = pair.z_first;
-        for (int o = 0; o < pair.count; ++o, z += pair.dz) {
+        for (int o = 0; o < pair.count; ++o, z += layer) {
             const std::int64_t j = pair.shift + o;
             V weight = broadcast<V>(pairs.w[pair.weights + o]);
-            if (tile.masked) weight = weight * load_bytes<V>(b.live + i + j);
+            if (tile.masked) weight = weight * load_float<V>(b.live + i + j);
             const Vec3<V> du{load<V>(ux + j) - xi, load<V>(uy + j) - yi, load<V>(uz + j) - zi};
             const Vec3<V> earlier{du.x - dt * (load<V>(vx + j) - vxi), du.y - dt * (load<V>(vy + j) - vyi), du.z - dt * (load<V>(vz + j) - vzi)};
             product += weight * dot(du, earlier);

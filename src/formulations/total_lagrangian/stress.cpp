@@ -40,8 +40,9 @@ BRISANCE_HD Gathered<V> whole(const PairsView<R>& pairs, std::int32_t column) {
 template <class V, bool masked, class R>
 BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs, std::int64_t base, std::int32_t column) {
     const std::int64_t c = column;
+    const R layer = static_cast<R>(b.dz);
     const R *ux = b.u[0] + base, *uy = b.u[1] + base, *uz = b.u[2] + base;
-    const std::uint8_t* live = b.live + base;
+    const float* live = b.live + base;
     const V xi = load<V>(ux), yi = load<V>(uy), zi = load<V>(uz);
     Gathered<V> g;
     if constexpr (!masked) g = whole<V>(pairs, column);
@@ -52,12 +53,12 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
         V sx{}, sy{}, sz{}, tx{}, ty{}, tz{};   // sums of w du and of w z du
         V m0{}, m1{}, m2{};                     // sums of w, w z, w z^2
         R z = pair.z_first;
-        for (int o = 0; o < pair.count; ++o, z += pair.dz) {
+        for (int o = 0; o < pair.count; ++o, z += layer) {
             const std::int64_t j = pair.shift + o;
             const V dx = load<V>(ux + j) - xi, dy = load<V>(uy + j) - yi, dz = load<V>(uz + j) - zi;
             V weight = broadcast<V>(w[o]);
             if constexpr (masked) {
-                weight = weight * load_bytes<V>(live + j);
+                weight = weight * load_float<V>(live + j);
                 m0 += weight;
                 m1 += weight * z;
                 m2 += weight * (z * z);
@@ -91,7 +92,7 @@ BRISANCE_HD Gathered<V> gather(const SolidView<R>& b, const PairsView<R>& pairs,
     if constexpr (masked) {
         // A particle with too few neighbours, or with neighbours in one plane, has no gradient: K^-1 = 0 leaves it F = I and T = 0, and the
         // guard takes it out. det K/(tr K/3)^3 is 1 inside and at a plane surface, 0.6 at an edge, 0.3 at a corner.
-        const V own = load_bytes<V>(live);
+        const V own = load_float<V>(live);
         const V t = trace(K);
         const auto good = (own * det(K) > R(0.1) * t * t * t * R(1.0 / 27.0)) & (t > R(0.1));
         const V one = broadcast<V>(R(1)), zero{};
@@ -214,7 +215,7 @@ private:
     BRISANCE_HD StressSums update(const Tile& tile, const Gathered<V>& g) const {
         const std::int64_t i = tile.base;
         const Column& column = b.columns[tile.column];
-        const V zero{}, one = broadcast<V>(R(1)), on = load_bytes<V>(b.live + i);
+        const V zero{}, one = broadcast<V>(R(1)), on = load_float<V>(b.live + i);
         const auto alive = on > R(0);
 
         // kinematics
@@ -306,7 +307,7 @@ private:
         store(b.stiffness + i, a_keep);
         for (int k = 0; k < n_state; ++k)
             if (b.state[k]) keep(b.state[k], p.state[k]);
-        store_float(b.yield + i, p.yield);
+        if (b.yield) store_float(b.yield + i, p.yield);
 
         // sums of the tile: only lanes that are particles
         const V own = owned(i) * k_on;
@@ -436,7 +437,7 @@ void tear(SolidBody<R>& b, const ColumnPairs<R>& pairs, StressReport& report) {
         return static_cast<std::size_t>(it - b.layout.columns.begin()) - 1;
     };
     for (std::size_t k = 0; k < b.layout.flags.size(); ++k) {
-        if (!(b.layout.flags[k] & slot_torn) || !b.live[k]) continue;
+        if (!(b.layout.flags[k] & slot_torn) || b.live[k] == 0) continue;
         torn.push_back(k);
         const std::size_t c = column_of(static_cast<std::int64_t>(k));
         for (std::int64_t p = pairs.begin[c]; p < pairs.begin[c + 1]; ++p) {

@@ -228,19 +228,18 @@ struct ResponseKernel {
     }
 };
 
-/// Second pass: the rates of v and e. Gives the powers.
+/// Second pass: the rates of v and e. Gives the powers. `tension`: there is some to resist; without, its lines would cost the others registers.
+template <bool tension>
 struct RatesKernel {
     FluidView b;
     FluidWork w;
     double alpha, beta, exponent;
-    bool tension;
     BRISANCE_HD FluidSolver::Powers operator()(std::int64_t k) const {
         using V = Pack<double>;
-        constexpr int width = lanes<double>;
         if (w.image(k)) return {};
         const std::int64_t i = w.particle(k);
         const double *me = w.motion + 8 * k, *mine = w.response + 8 * k;
-        const double rho = mine[0], c = mine[1], r_i = tension ? w.resistance[k] : 0.0;
+        const double rho = mine[0], c = mine[1];
         V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{}, mu_felt{};
         w.neighbours.packs(k, [&](const std::int32_t* list) {
             const Pairs<V> p = pairs<V>(me, w.motion, list);
@@ -252,10 +251,11 @@ struct RatesKernel {
             const V mu = vmin(p.h * vr * (inverse * densities), V{});
             const V pi = 2.0 * mu * (beta * mu - alpha * (0.5 * (c + other[1]))) * (inverse * apart);
             V bracket = pi;
-            if (tension) {
+            if constexpr (tension) {
+                constexpr int width = lanes<double>;
                 alignas(64) double r_j[width];
-                for (int l = 0; l < width; ++l) r_j[l] = w.resistance[list[l]];
-                const V resistance = r_i + load<V>(r_j);
+                for (int l = 0; l < width; ++l) r_j[l] = w.resistance[list[l] / record_length];
+                const V resistance = w.resistance[k] + load<V>(r_j);
                 if (any_lane(resistance < V{})) {
                     const V wi = kernel::shape(p.r / p.h), w0 = kernel::shape(vmin(b.spacing / p.h, broadcast<V>(2.0)));
                     const V extra = -resistance * power(wi / vmax(w0, broadcast<V>(1e-6)), exponent);
@@ -317,7 +317,8 @@ FluidSolver::Powers FluidSolver::rates(FluidBody& b) {
     // most fluids bear no tension: then there is nothing to resist
     const bool tension = b.options.artificial_stress && b.options.epsilon > 0 && exec::launch_max(body.n, 0.0, BRISANCE_KERNEL(std::int64_t i) { return -body.pressure[i]; }) > 0;
     exec::launch(w.grid.entries, ResponseKernel{body, w, tension ? b.options.epsilon : 0.0}, 1024);
-    return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel{body, w, b.options.alpha, b.options.beta, b.options.n, tension});
+    if (tension) return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel<true>{body, w, b.options.alpha, b.options.beta, b.options.n});
+    return exec::launch_sum(w.grid.entries, Powers{}, RatesKernel<false>{body, w, b.options.alpha, b.options.beta, b.options.n});
 }
 
 double FluidSolver::equalise(FluidBody& body, const double* press, const double* near, double dt) {
