@@ -136,6 +136,7 @@ TEST(LawTables, SayNameDimensionMeaningAndRange) {
         // the passes over a body read damage in the first column
         const int damage = column(entry.state, "damage");
         EXPECT_TRUE(damage <= 0) << "damage stands first";
+        EXPECT_TRUE(entry.state.empty() || entry.state[0].kept);
     }
     EXPECT_FALSE(burn_parameters().empty());
 }
