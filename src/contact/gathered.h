@@ -64,9 +64,11 @@ struct Gathered {
 
     BRISANCE_HD void take(const double (&row)[n]) {
         all = count < most;
-        if (!all) return;
-        for (int c = 0; c < n; ++c) room[c][count] = row[c];
-        ++count;
+        if constexpr (most > 0) {
+            if (!all) return;
+            for (int c = 0; c < n; ++c) room[c][count] = row[c];
+            ++count;
+        }
     }
     /// The entries k + l for each bit l that is set.
     BRISANCE_HD void take(const SortedView<n>& from, std::int64_t k, unsigned bits) {

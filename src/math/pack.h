@@ -85,12 +85,15 @@ template <class V> BRISANCE_INLINE V vsqrt(V x) {
 template <class V> BRISANCE_INLINE V load_float(const float* p) {
     if constexpr (lanes_of<V> == 1) {
         return static_cast<V>(*p);
-    } else {
+    }
+#ifndef BRISANCE_CUDA
+    else {
         typedef float Floats __attribute__((vector_size(lanes_of<V> * sizeof(float))));
         Floats f;
         std::memcpy(&f, p, sizeof(f));
         return __builtin_convertvector(f, V);
     }
+#endif
 }
 template <class V> BRISANCE_INLINE void store_float(float* p, V v) {
     for (int l = 0; l < lanes_of<V>; ++l) p[l] = static_cast<float>(lane(v, l));

@@ -7,10 +7,9 @@
 #include "math/pack.h"
 #include "neighbours/support_map.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace brisance {
 
@@ -86,7 +85,7 @@ public:
     void build(const CellGridView& grid, const Supports& s, const Wanted& wanted) {
         NeighbourListsView& v = view_;
         v.entries = grid.entries;
-        if (v.entries > most_entries) throw ResourceError(fmt::format("a fluid of {} particles and images; at most {} fit into its lists of neighbours", v.entries, most_entries));
+        if (v.entries > most_entries) throw ResourceError("a fluid of " + std::to_string(v.entries) + " particles and images: its lists of neighbours number at most " + std::to_string(most_entries));
         make_room(count_, static_cast<std::size_t>(v.entries));
         supports_.build(grid, s.h, s.h_max);
         v.count = count_.data();
