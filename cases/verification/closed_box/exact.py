@@ -5,13 +5,15 @@ import numpy as np
 
 from brisance.verification import scaled
 
+A_HAIR = 0.06  # mm, a tenth of the spacing of air (expected.toml)
+
 
 def measure(shot):
     a = shot.audit
     end = shot.snapshot(-1)
     released = a["burn_released"][-1]
     return {"energy": scaled(a["residual"][np.argmax(np.abs(a["residual"]))] / released, 0, 1), "momentum": scaled(a["momentum_residual"].max(), 0, 1),
-            "leaked": scaled(a["leaked"].max(), 0, 1), "beyond_the_wall": scaled((np.abs(end["x"][:, :2]) > 14).any(axis=1).sum(), 0, 1),
+            "leaked": scaled(a["leaked"].max(), 0, 1), "beyond_the_wall": scaled((np.abs(end["x"][:, :2]) > 14 + A_HAIR).any(axis=1).sum(), 0, 1),
             "steps": scaled(min(a["step"][-1] / 1e4, 1.0), 1, 1)}
 
 
