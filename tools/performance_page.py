@@ -6,7 +6,7 @@
     for n in 1e5 1e6 5e6 2e7; do ./brisance bench rock --particles $n --json > docs/performance/rock_$n.json; done
     ./brisance check cases/blast/air_copper.toml --preset full --json > docs/performance/full_check.json
     ./brisance check cases/blast/air_copper.toml --preset full --until "1.27 us" --json > docs/performance/full_stretch_check.json
-    ./brisance run cases/blast/air_copper.toml --preset full --no-report --until "1.27 us" --out runs/full 2>&1 | grep 'set up' > docs/performance/full_log.txt      # 300 short steps, ten minutes
+    ./brisance run cases/blast/air_copper.toml --preset full --no-report --until "1.27 us" --out runs/full 2>&1 | grep 'set up' > docs/performance/full_log.txt      # three minutes
     cp runs/full/provenance.json docs/performance/full_run.json
     ./brisance run cases/blast/air_copper.toml --preset full --set 'slice={z = "100 mm", layers = 12, part = "rock"}' --set 'detonation=[{part = "charge", kind = "instant"}]' --until "40 us" --no-report --out runs/slice
     cp runs/slice/provenance.json docs/performance/slice_run.json       # three minutes
@@ -128,10 +128,10 @@ def full():
 
 def stretch():
     f = full()
-    return [f"`cases/blast/air_copper.toml --preset full` from the lighting to {f['end']:.2f} µs: {f['particles']:,} particles set up in {f['setup']:.0f} s, {f['steps']} long steps, about {f['short']:.0f} short ones, in {f['measured'] / 60:.1f} min on "
-            f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, which measures the machine for a moment, foretells {f['foretold'] / 60:.1f}). Of the time {f['shares']}; the rest is contact and output.",
+    return [f"`cases/blast/air_copper.toml --preset full` from the lighting to {f['end']:.2f} µs: {f['particles']:,} particles set up in {f['setup']:.0f} s, {f['steps']} long steps in {f['measured'] / 60:.1f} min on "
+            f"{f['threads']} threads (commit {f['commit'].split('-')[0]}; `brisance check`, which measures the machine for a moment, foretells {f['short']:.0f} short steps and {f['foretold'] / 60:.1f} min). Of the time {f['shares']}; the rest is contact and output.",
             f"In the same proportion the 150 µs, which `check` puts at {f['whole_foretold'] / 3600:.1f} h, take {f['proportion'] / 3600:.1f}. The fluids decide: a million particles; for the 22 µs of the burn "
-            "the charge holds the step, then the air and the sheath.",
+            "the sheath at the front holds the step, then the air and the sheath.",
             f"A slice of 12 layers with the same spacings, lit at once, takes {f['slice']:.0f} s for {f['slice_end']:g} µs (the command is in `tools/performance_page.py`). As often as the body is longer, and on to 150 µs, that is {f['as_slices'] / 3600:.1f} h. The goal is held against the longer of the two.",
             f"Neither knows the gas that has vented. The preset full-coarse, whole and with twice the spacing in the borehole, takes {read('coarse_run.json')['wall_seconds'] / 60:.0f} min for its 150 µs."]
 
@@ -146,12 +146,13 @@ def page():
         "tell how far to trust a number. Made by `tools/performance_page.py` from `brisance bench --json`, which measures the same on your machine.", "",
         f"The ceilings, measured too: {top['bandwidth'] / 1e9:.1f} GB/s, {top['arithmetic'] / 1e9:.0f} GFLOP/s in double, {top['arithmetic_single'] / 1e9:.0f} in single.", "",
         "## Loops", "", *loops(rows), "",
-        "*Of the arithmetic* counts only what the method needs for each neighbour (`src/app/bench.cpp` says how many operations), no law, no kick. *Of the bandwidth* takes every byte of a particle in and out once a step. Water is measured twice: as the blast cases have it, and with as many neighbours as the goal counts.", "",
+        "*Of the arithmetic* counts only what the method needs for each neighbour (`src/app/bench.cpp` says how many operations), no law, no kick. *Of the bandwidth* takes every byte of a particle in and out once a step. Water is measured twice: as the blast cases have it, and with as many neighbours as the goal counts. "
+        f"Rock is a block of {rows['rock'][-1]['particles']:,.0f} particles; what a particle takes falls with the size (below).", "",
         "![Roofline](images/roofline.png)", "",
         "## What limits each loop", "",
         "* **Rock and copper** are bound by loads. A neighbour of rock costs 44 operations and 19 loads of a whole register, nearly all from the first two caches and most of them astride two cache lines, since a",
         "  neighbour's column begins anywhere in a line. Two loads a cycle, or one that straddles: that is where the time goes, not the multiply-adds. Single precision takes twice the particles in a load.",
-        "* **Water** searches its neighbours anew each step: 26 % of its instructions, the two passes over the neighbours 27 and 39 % (`build/portable/loops fluid` under callgrind, as `tools/instructions.py` runs it); a record of",
+        "* **Water** searches its neighbours anew each step: 28 % of its instructions, the two passes over the neighbours 25 and 37 % (`build/portable/loops fluid` under callgrind, as `tools/instructions.py` runs it); a record of",
         "  eight numbers is gathered for each neighbour in both passes and turned in registers.",
         "  Cells are walked in strips, so that what a strip's neighbours need stays in the second cache; with AVX-512 they are as wide as a support, since shorter rows leave packs of sixteen half empty.",
         "* **The second thread** shares with the first whatever the machine lets two threads share: compare the arithmetic of one thread with that of both before blaming the loop:",
