@@ -78,13 +78,13 @@ SolidPart<R> make_solid(const Case& c, const PartData& p, const Placement& place
         throw InputError(fmt::format("{}: part {} is total_lagrangian, but {} has no strength law; use updated_lagrangian for fluids", p.where, p.name,
                                      p.material.name));
     b.options.smoothing = p.smoothing;
-    b.options.yield = std::any_of(c.gauges.begin(), c.gauges.end(), [&](const GaugeData& g) { return g.part == p.name; });
     b.options.zero_energy = p.zero_energy;
     b.options.pairwise = p.viscosity.pairwise;
     b.options.alpha = p.viscosity.alpha;
     b.options.beta = p.viscosity.beta;
     b.options.linear = p.viscosity.linear;
     b.options.quadratic = p.viscosity.quadratic;
+    b.options.yield = std::any_of(c.gauges.begin(), c.gauges.end(), [&](const GaugeData& g) { return g.part == p.name; });
     FailureRule& f = b.options.failure;
     f.mode = static_cast<int>(p.failure.mode);
     f.tensile = p.failure.tensile_strength.value_or(0);

@@ -61,9 +61,10 @@ double fit(double dt, double left) { return left / std::ceil(left / dt - 1e-9); 
 template <class R>
 double choose_step(World<R>& w, double until) {
     for (SolidPart<R>& s : w.solids) s.slow = false;
-    double fluids = w.dt_free > 0 ? w.options.growth * w.dt_free : 1e300, fluid_particles = 0;  // their step grows slowly, whatever they could take
+    double fluids = 1e300, fluid_particles = 0;
+    const double grown = w.dt_free > 0 ? w.options.growth * w.dt_free : 1e300;  // what the short step can be now, whatever fluids could take
     for (const FluidPart& f : w.fluids) {
-        if (f.rate > 0) fluids = std::min(fluids, w.options.courant_fluid / f.rate);
+        if (f.rate > 0) fluids = std::min({fluids, w.options.courant_fluid / f.rate, grown});
         fluid_particles += static_cast<double>(f.body.size());
     }
     // Solids with the longest limits are slow. How many: the division that costs least, particles times steps per time. It is told by the limits,

@@ -13,8 +13,8 @@
 
 namespace brisance {
 
-/// The lists as kernels take them: where the record of each neighbour begins (eight numbers an entry). Of the processor each is in one piece, a whole number of packs; where a pack is one number, the first
-/// neighbours of all entries stand together, then the second, ...
+/// The lists as kernels take them: where the record of each neighbour begins. Of the processor each is in one piece, a whole number of packs;
+/// where a pack is one number, the first neighbours of all entries stand together, then the second, ...
 struct NeighbourListsView {
     static constexpr int width = lanes<double>;
     std::int32_t* lists = nullptr;
@@ -59,7 +59,7 @@ struct SearchKernel {
         constexpr int width = lanes<float>;
         v.count[i] = 0;
         if (!wanted(i)) return 0;
-        const double* const at = s.records + 8 * i;
+        const double* const at = s.records + record_length * i;
         const double reach = at[3] + supports.near(at[0], at[1], at[2]) + static_cast<double>(slack);
         const float x = s.x[i], y = s.y[i], z = s.z[i], h = s.h[i] + slack;
         const std::int64_t full = v.capacity - 2 * width;

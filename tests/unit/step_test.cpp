@@ -104,6 +104,22 @@ TEST(Step, ASolidThatTookAShortStepFindsBackToLongOnes) {
     EXPECT_LT(audit(w).momentum_residual, 1e-12);
 }
 
+TEST(Step, ASolidAloneIsNeverSlow) {
+    // also where its limit is far above what growth lets it take now
+    World<double> w = gas_between_plates();
+    w.fluids.clear();
+    w.contacts.clear();
+    w.solids.resize(1);
+    begin(w);
+    step(w, 10.0);
+    for (w.dt_free *= 0.2; w.steps < 5;) {
+        const double before = w.dt_free;
+        step(w, 10.0);
+        EXPECT_FALSE(w.solids[0].slow);
+        EXPECT_LE(w.solids[0].dt, w.options.growth * before * (1 + 1e-12));
+    }
+}
+
 TEST(Step, OutputTimesAreMetWithoutSplinters) {
     World<double> w = gas_between_plates();
     begin(w);

@@ -142,13 +142,13 @@ struct MotionKernel {
             for (int c = 0; c < 8; ++c) record[c] = now[c];
         } else {
             const double unit[8] = {1, 1, 0, 0, 0, 0, 0, 0};
-            for (int c = 0; c < 8; ++c) w.response[8 * k + c] = unit[c];
+            for (int c = 0; c < 8; ++c) w.response[record_length * k + c] = unit[c];
             w.resistance[k] = 0;
         }
         float* const place[3] = {w.x, w.y, w.z};
         for (int a = 0; a < 3; ++a) place[a][k] = static_cast<float>(record[a] - w.grid.min[a]);
         w.h[k] = static_cast<float>(record[3]);
-        for (int c = 0; c < 8; ++c) w.motion[8 * k + c] = record[c];
+        for (int c = 0; c < 8; ++c) w.motion[record_length * k + c] = record[c];
     }
 };
 
@@ -175,7 +175,7 @@ struct DivergenceKernel {
         using V = Pack<double>;
         if (w.image(k)) return;
         const std::int64_t i = w.particle(k);
-        const double* me = w.motion + 8 * k;
+        const double* me = w.motion + record_length * k;
         const double* motion = w.motion;
         Sym3<V> m;
         Mat3<V> g;
@@ -220,7 +220,7 @@ struct ResponseKernel {
         const std::int64_t i = w.particle(k);
         const double x = w.sign(k, 0), y = w.sign(k, 1), z = w.sign(k, 2);
         const double turn[6] = {1, 1, 1, x * y, x * z, y * z};
-        double* r = w.response + 8 * k;
+        double* r = w.response + record_length * k;
         r[0] = b.rho_now[i];
         r[1] = b.sound[i];
         for (int a = 0; a < 6; ++a) r[2 + a] = turn[a] * (b.pressure[i] + w.q[i]) * component(w.correction[i], static_cast<std::size_t>(a));
@@ -238,7 +238,7 @@ struct RatesKernel {
         using V = Pack<double>;
         if (w.image(k)) return {};
         const std::int64_t i = w.particle(k);
-        const double *me = w.motion + 8 * k, *mine = w.response + 8 * k;
+        const double *me = w.motion + record_length * k, *mine = w.response + record_length * k;
         const double rho = mine[0], c = mine[1];
         V ax{}, ay{}, az{}, heat{}, viscous{}, artificial{}, mu_largest{}, mu_felt{};
         w.neighbours.packs(k, [&](const std::int32_t* list) {
@@ -296,7 +296,7 @@ FluidWork FluidSolver::sort(const FluidBody& b) {
     grid_.build(points_.place(0), points_.place(1), points_.place(2), points_.size(), std::max(cell, 1e-9), 2 * h_max, b.z_low, b.period);
     const auto padded = static_cast<std::size_t>(grid_.entries() + lanes<float>), n = static_cast<std::size_t>(body.n);
     for (auto* a : {&x_, &y_, &z_, &h_}) make_room(*a, padded);
-    for (auto* a : {&motion_, &response_}) make_room(*a, 8 * padded);
+    for (auto* a : {&motion_, &response_}) make_room(*a, record_length * padded);
     make_room(resistance_, padded);
     for (auto* a : {&mu_, &q_, &missing_, &unseen_}) make_room(*a, n);
     if (correction_.size() != n) {
